@@ -1,0 +1,1 @@
+"""Touch on bare skin from any RGB camera."""

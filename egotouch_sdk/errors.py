@@ -1,0 +1,61 @@
+"""Every error that egotouch_sdk raises on purpose.
+
+    EgoTouchError
+    ├── ConfigError        a setting is unknown or out of range
+    ├── SourceError        a camera, file or folder gives no usable frames
+    ├── FrameError         an array or data object has the wrong shape, type or range
+    ├── ModelError         a model file is missing, altered or of the wrong kind
+    └── MissingExtraError  an optional dependency is not installed
+
+Each carries `code` (stable, for programs), `message` (what is wrong) and `hint` (the next step).
+"""
+
+from __future__ import annotations
+
+
+class EgoTouchError(Exception):
+    """Base of all errors raised on purpose; `str()` gives the message and the next step in one line."""
+
+    code = "egotouch"
+
+    def __init__(self, message: str, *, hint: str = "") -> None:
+        super().__init__(message, hint)
+        self.message = message
+        self.hint = hint
+
+    def __str__(self) -> str:
+        return f"{self.message}. {self.hint}" if self.hint else self.message
+
+
+class ConfigError(EgoTouchError):
+    """A setting is unknown, of the wrong type or out of range."""
+
+    code = "config"
+
+
+class SourceError(EgoTouchError):
+    """A camera, video, folder or push source cannot deliver frames."""
+
+    code = "source"
+
+
+class FrameError(EgoTouchError, ValueError):
+    """A value handed to the SDK has the wrong shape, type, unit or order."""
+
+    code = "frame"
+
+
+class ModelError(EgoTouchError):
+    """A model file is missing, altered, or not what its manifest says."""
+
+    code = "model"
+
+
+class MissingExtraError(EgoTouchError, ImportError):
+    """A feature needs an optional dependency that is not installed."""
+
+    code = "missing_extra"
+
+    def __init__(self, feature: str, extra: str) -> None:
+        super().__init__(f"{feature} needs an optional package", hint=f"Install it with: pip install 'egotouch-sdk[{extra}]'")
+        self.extra = extra

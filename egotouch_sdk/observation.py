@@ -1,0 +1,134 @@
+"""What each stage sees in one frame: frozen data passed along the pipeline's arrows."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from enum import StrEnum
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from egotouch_sdk.errors import FrameError
+from egotouch_sdk.joints import NUM_JOINTS, Finger, HandJoint, Handedness
+
+FloatArray = npt.NDArray[np.float32]
+
+#: Side of the touch model's patch in pixels (EgoTouch, UIST'24, section 4: 100 x 100 px, about 4 x 4 cm).
+PATCH_PX = 100
+#: Side of the touch model's patch on the skin in millimetres (same section).
+PATCH_MM = 40.0
+#: Largest force the model reports, in newtons (range of the paper's sensor study).
+FORCE_MAX_N = 3.5
+
+
+def frozen_array(value: Any, shape: tuple[int, ...], name: str) -> FloatArray:
+    """Copy `value` into a read-only float32 array of `shape`; raises `FrameError` when it does not fit or is not finite."""
+    array = np.array(value, np.float32)
+    if array.shape != shape:
+        raise FrameError(f"{name} has shape {array.shape}, need {shape}")
+    if not np.isfinite(array).all():
+        raise FrameError(f"{name} holds a value that is not finite")
+    array.flags.writeable = False
+    return array
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class HandObservation:
+    """One hand in one frame.
+
+    `hand_id` is the identity over time; `handedness` the wearer's side; `score` 0..1 the presence.
+    `landmarks_px` (21, 3): x, y in image pixels, z in the same scale relative to the wrist, smaller = nearer.
+    `world_mm` (21, 3): metric, camera-aligned axes (x right, y down, z away), origin at the hand's centre.
+    """
+
+    hand_id: int
+    handedness: Handedness
+    score: float
+    landmarks_px: FloatArray
+    world_mm: FloatArray
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "landmarks_px", frozen_array(self.landmarks_px, (NUM_JOINTS, 3), "landmarks_px"))
+        object.__setattr__(self, "world_mm", frozen_array(self.world_mm, (NUM_JOINTS, 3), "world_mm"))
+        if not 0.0 <= self.score <= 1.0:
+            raise FrameError(f"hand score is {self.score}, need 0..1")
+
+    def xy_px(self, joint: HandJoint) -> FloatArray:
+        """Image position (2,) of one joint in pixels."""
+        return self.landmarks_px[joint, :2]
+
+
+class GateReason(StrEnum):
+    """Why the proximity gate is open or closed."""
+
+    OPEN = "open"
+    NO_HANDS = "no_hands"
+    NO_HOST = "no_host"
+    TOO_FAR = "too_far"
+    NO_ACTIVE_FINGER = "no_active_finger"
+
+
+@dataclass(frozen=True, slots=True)
+class TouchPair:
+    """One touching hand over one host limb, with the fingers that could touch it."""
+
+    touching: HandObservation
+    host: HandObservation
+    distance_palms: float
+    active_fingers: tuple[Finger, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class GateResult:
+    """The gate's answer for one frame: `pairs` to look at, and why the gate is open or closed."""
+
+    reason: GateReason
+    pairs: tuple[TouchPair, ...] = ()
+
+    @property
+    def is_open(self) -> bool:
+        """True when at least one finger is worth looking at."""
+        return self.reason is GateReason.OPEN
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class FingertipPatch:
+    """The finger-up view of one fingertip.
+
+    `image` (100, 100, 3) uint8 RGB, tip at the centre, DIP to TIP pointing up, mirrored for a left touching hand.
+    `r_palms` is the distance host wrist to fingertip in lengths of the axis wrist to middle MCP;
+    `theta_rad` its angle from that axis, counter-clockwise as seen, in (-pi, pi], sign flipped for a left touching hand.
+    `tip_px` (2,) and `px_per_mm` locate it in the frame.
+    """
+
+    hand_id: int
+    handedness: Handedness
+    finger: Finger
+    image: npt.NDArray[np.uint8] = field(repr=False)
+    r_palms: float
+    theta_rad: float
+    tip_px: tuple[float, float]
+    px_per_mm: float
+
+    def __post_init__(self) -> None:
+        if self.image.shape != (PATCH_PX, PATCH_PX, 3) or self.image.dtype != np.uint8:
+            raise FrameError(f"patch is {self.image.dtype} {self.image.shape}, need uint8 ({PATCH_PX}, {PATCH_PX}, 3)")
+        if self.px_per_mm <= 0:
+            raise FrameError(f"patch px_per_mm is {self.px_per_mm}, need > 0")
+
+
+@dataclass(frozen=True, slots=True)
+class TouchEstimate:
+    """The touch model's answer for one fingertip in one frame: probability 0..1 and force in newtons, 0..3.5."""
+
+    hand_id: int
+    finger: Finger
+    touch_probability: float
+    force_n: float
+
+    def __post_init__(self) -> None:
+        if not 0.0 <= self.touch_probability <= 1.0:
+            raise FrameError(f"touch_probability is {self.touch_probability}, need 0..1")
+        if not 0.0 <= self.force_n <= FORCE_MAX_N:
+            raise FrameError(f"force_n is {self.force_n}, need 0..{FORCE_MAX_N}")
