@@ -1,0 +1,44 @@
+# Every target makes what it needs from nothing; a second run does only what changed.
+
+VENV   := .venv
+BIN    := $(VENV)/bin
+# The first interpreter that is new enough; choose another with `make PYTHON=/path/to/python3.12 ...`.
+PYTHON ?= $(shell for p in python3 python3.13 python3.12 python3.11; do \
+	$$p -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && { echo $$p; break; }; done)
+# Options for pytest, for example `make test PYTEST_ARGS="-k sources -x"`.
+PYTEST_ARGS ?= -n 2 --dist loadfile -q
+
+.PHONY: help demo test lint bench clean
+.DEFAULT_GOAL := help
+
+help: ## list the targets
+	@grep -hE '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## /  make \1\t/' | expand -t 14
+
+demo: $(VENV)/.run ## set everything up and show touches on skin, live, without a camera
+	$(BIN)/egotouch demo $(ARGS)
+
+test: lint ## ruff, mypy and all tests
+	$(BIN)/python -m pytest $(PYTEST_ARGS)
+
+lint: $(VENV)/.dev ## ruff and mypy --strict
+	$(BIN)/ruff check .
+	$(BIN)/mypy
+
+bench: $(VENV)/.run ## milliseconds per stage and frames per second on this machine
+	$(BIN)/egotouch bench $(ARGS)
+
+clean: ## remove the virtual environment, caches and the converted hand models
+	rm -rf $(VENV) .mypy_cache .pytest_cache .ruff_cache .hypothesis build dist
+	rm -f egotouch_sdk/models/hands/*.onnx egotouch_sdk/models/hands/manifest.json
+
+$(BIN)/python:
+	@test -n "$(PYTHON)" || { echo "No Python >= 3.11 found. Install one, or run: make PYTHON=/path/to/python3.11 $(MAKECMDGOALS)" >&2; exit 1; }
+	$(PYTHON) -m venv $(VENV)
+
+$(VENV)/.run: $(BIN)/python pyproject.toml hatch_build.py
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable .
+	@touch $@
+
+$(VENV)/.dev: $(BIN)/python pyproject.toml hatch_build.py
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[dev]'
+	@touch $@ $(VENV)/.run
