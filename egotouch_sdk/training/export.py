@@ -1,0 +1,149 @@
+"""Writes a trained network as the model file, its manifest, its golden pair and its model card."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+import torch
+
+from egotouch_sdk.errors import ModelError
+from egotouch_sdk.observation import PATCH_PX
+from egotouch_sdk.training.model_card import model_card
+from egotouch_sdk.training.network import TouchNetwork, count_parameters, reparameterise
+
+MODEL_FILE = "touch.onnx"
+MANIFEST_FILE = "touch.json"
+GOLDEN_FILE = "touch_golden.npz"
+CARD_FILE = "MODEL_CARD.md"
+#: Parameters of the paper's model while training and as shipped, in millions (EgoTouch, UIST'24, section 4).
+PAPER_PARAMETERS_M = {"trained": 4.1, "shipped": 3.8}
+#: Largest difference between torch and ONNX outputs that counts as the same model (our choice; float32 rounding is about 1e-6).
+PARITY_TOLERANCE = 1e-4
+#: Patches in the golden pair.
+GOLDEN_SIZE = 4
+ONNX_OPSET = 17
+
+
+@dataclass(frozen=True)
+class ModelFacts:
+    """What the manifest says beyond the file itself.
+
+    `version` is free text, "untrained" for random weights. `threshold_down` and `threshold_up` are touch probabilities:
+    a touch begins at or above the first and ends below the second. `training` and `measured` are JSON-ready and copied as they are.
+    """
+
+    version: str
+    threshold_down: float
+    threshold_up: float
+    training: dict[str, Any] = field(default_factory=dict)
+    measured: dict[str, Any] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        if not 0.0 < self.threshold_up <= self.threshold_down < 1.0:
+            raise ModelError(f"thresholds are down={self.threshold_down}, up={self.threshold_up}; need 0 < up <= down < 1")
+
+
+def write_model(network: TouchNetwork, facts: ModelFacts, folder: Path) -> Path:
+    """Write the model file with its manifest, golden pair and model card into `folder`; returns the model file's path.
+
+    The network is folded first. Raises `ModelError` when the written file does not give the trained network's outputs within 1e-4.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    path = folder / MODEL_FILE
+    patch, polar = golden_inputs()
+    expected = run_torch(network, patch, polar)
+    write_onnx(reparameterise(network), path)
+    check_parity(path, patch, polar, expected)
+    np.savez_compressed(folder / GOLDEN_FILE, patch=patch, polar=polar, touch_logit=expected[0], force_n=expected[1])
+    manifest = build_manifest(network, facts, path)
+    (folder / MANIFEST_FILE).write_text(json.dumps(manifest, indent=2) + "\n")
+    (folder / CARD_FILE).write_text(model_card(manifest))
+    return path
+
+
+def golden_inputs() -> tuple[npt.NDArray[np.float32], npt.NDArray[np.float32]]:
+    """Fixed inputs for the golden pair: random patches with the mean and spread of normalised ones, and four places."""
+    rng = np.random.default_rng(0)
+    patch = rng.standard_normal((GOLDEN_SIZE, 3, PATCH_PX, PATCH_PX), np.float32)
+    polar = np.array([[0.0, 0.0], [0.8, 0.3], [1.4, -0.6], [2.1, 2.9]], np.float32)
+    return patch, polar
+
+
+def run_torch(
+    network: TouchNetwork, patch: npt.NDArray[np.float32], polar: npt.NDArray[np.float32]
+) -> tuple[npt.NDArray[np.float32], npt.NDArray[np.float32]]:
+    """The network's outputs `touch_logit` (N,) and `force_n` (N,) in evaluation mode; its own mode is restored."""
+    training = network.training
+    network.eval()
+    try:
+        with torch.no_grad():
+            logit, force = network(torch.from_numpy(patch), torch.from_numpy(polar))
+    finally:
+        network.train(training)
+    return logit.numpy(), force.numpy()
+
+
+def write_onnx(folded: TouchNetwork, path: Path) -> None:
+    """Write a folded network as ONNX with a free batch size."""
+    example = (torch.zeros(2, 3, PATCH_PX, PATCH_PX), torch.zeros(2, 2))
+    batch = {0: "batch"}
+    torch.onnx.export(
+        folded.eval(),
+        example,
+        str(path),
+        input_names=["patch", "polar"],
+        output_names=["touch_logit", "force_n"],
+        dynamic_axes={name: batch for name in ("patch", "polar", "touch_logit", "force_n")},
+        opset_version=ONNX_OPSET,
+        dynamo=False,
+    )
+
+
+def check_parity(
+    path: Path,
+    patch: npt.NDArray[np.float32],
+    polar: npt.NDArray[np.float32],
+    expected: tuple[npt.NDArray[np.float32], npt.NDArray[np.float32]],
+) -> None:
+    """Raise `ModelError` unless the model file gives the expected outputs for the whole batch and for one patch alone."""
+    from egotouch_sdk.inference import create_session
+
+    session = create_session(path)
+    for count in (len(patch), 1):
+        got = session.run(["touch_logit", "force_n"], {"patch": patch[:count], "polar": polar[:count]})
+        worst = max(float(np.abs(g - e[:count]).max()) for g, e in zip(got, expected, strict=True))
+        if worst > PARITY_TOLERANCE:
+            raise ModelError(f"{path.name} differs from the trained network by {worst:.2g}", hint="Report this with your torch and onnx versions")
+
+
+def build_manifest(network: TouchNetwork, facts: ModelFacts, path: Path) -> dict[str, Any]:
+    """The manifest of a written model file, JSON-ready."""
+    return {
+        "name": "egotouch-touch",
+        "version": facts.version,
+        "file": path.name,
+        "sha256": hashlib.sha256(path.read_bytes()).hexdigest(),
+        "inputs": {
+            "patch": {"dtype": "float32", "shape": ["N", 3, PATCH_PX, PATCH_PX], "meaning": "RGB through egotouch_sdk.patches.normalise"},
+            "polar": {"dtype": "float32", "shape": ["N", 2], "meaning": "(r_palms, theta_rad); (0, 0) when the host is unknown"},
+        },
+        "outputs": {
+            "touch_logit": {"dtype": "float32", "shape": ["N"], "meaning": "touch probability is its logistic"},
+            "force_n": {"dtype": "float32", "shape": ["N"], "meaning": "newtons, 0..3.5"},
+        },
+        "threshold": {"down": facts.threshold_down, "up": facts.threshold_up},
+        "parameters": {
+            "trained": count_parameters(network),
+            "shipped": count_parameters(reparameterise(network)),
+            "paper_millions": PAPER_PARAMETERS_M,
+        },
+        "training": facts.training,
+        "measured": facts.measured,
+        "licence": "Apache-2.0",
+    }

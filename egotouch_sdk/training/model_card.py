@@ -1,0 +1,56 @@
+"""The model card: the manifest in words."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+_INTRO = """# Touch model
+
+FastViT-T8 trunk, 126 features with (R, theta), 128 hidden units; one patch gives a touch logit and a force in newtons
+(EgoTouch, UIST 2024, section 4). Folded to plain convolutions for shipping. Version: **{version}**. Licence: {licence}.
+
+| form | parameters | the paper's |
+| --- | --- | --- |
+| trained | {trained:,} | {paper[trained]} M |
+| shipped | {shipped:,} | {paper[shipped]} M |
+
+A touch begins at probability {threshold[down]:.3f} and ends below {threshold[up]:.3f}.
+"""
+
+_LIMITS = """
+## Limits
+
+Trained on rendered pictures only; no picture of a real person was used for its weights, its calibration or its thresholds.
+Figures on rendered pictures say nothing about real skin by themselves. Forces come from a contact model, not from a sensor:
+read them as light, medium and firm. Hair, sleeves, gloves, rings over the contact, wet skin and very dim rooms are not covered well.
+"""
+
+
+def model_card(manifest: dict[str, Any]) -> str:
+    """The model card (Markdown) of a manifest made by `export.build_manifest`."""
+    parameters = manifest["parameters"]
+    text = _INTRO.format(
+        version=manifest["version"],
+        licence=manifest["licence"],
+        trained=parameters["trained"],
+        shipped=parameters["shipped"],
+        paper=parameters["paper_millions"],
+        threshold=manifest["threshold"],
+    )
+    if not manifest["training"]:
+        return text + "\nRandom weights: this file only lets the pipeline run. Its answers mean nothing.\n"
+    return text + _LIMITS + _section("Training", manifest["training"]) + _section("Measured", manifest["measured"])
+
+
+def _section(title: str, facts: dict[str, Any]) -> str:
+    rows = "".join(f"| {key.replace('_', ' ')} | {_cell(value)} |\n" for key, value in facts.items())
+    return f"\n## {title}\n\n| what | value |\n| --- | --- |\n{rows}"
+
+
+def _cell(value: Any) -> str:
+    if isinstance(value, str):
+        return value.replace("|", "\\|")
+    if isinstance(value, dict):
+        return ", ".join(f"{k}: {_cell(v)}" for k, v in value.items())
+    return f"{value:.4g}" if isinstance(value, float) else json.dumps(value)
