@@ -1,4 +1,4 @@
-"""The one crop and the one normalisation, used live, in training and in evaluation."""
+"""The one crop, used live, in training and in evaluation."""
 
 from __future__ import annotations
 
@@ -18,8 +18,6 @@ PATCH_PX_PER_MM = PATCH_PX / PATCH_MM
 PATCH_CENTRE_PX = (PATCH_PX - 1) / 2
 #: Most samples per patch pixel and axis when minifying; 8 covers a 12-megapixel close-up (our choice).
 MAX_OVERSAMPLING = 8
-#: Added to a patch's own standard deviation so that a flat patch is not blown up to noise (our choice, images in 0..1).
-STD_FLOOR = 0.05
 
 
 def cut_patch(
@@ -75,21 +73,3 @@ def _patch_to_image(
             [right_y, down_y, float(tip_px[1]) - centre * (right_y + down_y)],
         ]
     )
-
-
-def normalise(patches: npt.NDArray[np.uint8]) -> npt.NDArray[np.float32]:
-    """Turn patches into the touch model's input.
-
-    `patches` uint8 (N, 100, 100, 3) RGB. Each patch is scaled to 0..1, its own mean over all pixels and channels is
-    subtracted, and it is divided by its own standard deviation + 0.05, so exposure and contrast cancel but colour stays.
-    Returns float32 (N, 3, 100, 100), contiguous. Raises `FrameError` for another shape or type.
-    """
-    if patches.dtype != np.uint8 or patches.ndim != 4 or patches.shape[1:] != (PATCH_PX, PATCH_PX, 3):
-        raise FrameError(f"patches are {patches.dtype} {patches.shape}, need uint8 (N, {PATCH_PX}, {PATCH_PX}, 3)")
-    planes = np.ascontiguousarray(patches.transpose(0, 3, 1, 2), np.float32)
-    flat = planes.reshape(len(planes), -1 if len(planes) else 3 * PATCH_PX * PATCH_PX)
-    flat *= np.float32(1 / 255)
-    flat -= flat.mean(axis=1, keepdims=True)
-    std = np.sqrt(np.einsum("ij,ij->i", flat, flat) / flat.shape[1])
-    flat /= (std + STD_FLOOR)[:, None]
-    return planes
