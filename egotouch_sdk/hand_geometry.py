@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from math import hypot
 
 import numpy as np
@@ -21,10 +22,7 @@ def palm_length_px(hand: HandObservation) -> float:
     """
     points = hand.landmarks_px
     corners = (HandJoint.WRIST, HandJoint.INDEX_FINGER_MCP, HandJoint.PINKY_MCP, HandJoint.WRIST)
-    sides = (
-        hypot(float(points[a, 0] - points[b, 0]), float(points[a, 1] - points[b, 1])) for a, b in zip(corners, corners[1:], strict=False)
-    )
-    return max(1.0, *sides)
+    return max(1.0, *(hypot(float(points[a, 0] - points[b, 0]), float(points[a, 1] - points[b, 1])) for a, b in pairwise(corners)))
 
 
 def px_per_mm(hand: HandObservation) -> float | None:

@@ -1,0 +1,163 @@
+"""Every setting in one place: unit in the name, meaning and source of each default in its description."""
+
+from __future__ import annotations
+
+from difflib import get_close_matches
+from pathlib import Path
+from typing import Any, Self
+
+from pydantic import BaseModel, ConfigDict, Field, ModelWrapValidatorHandler, ValidationError, model_validator
+
+from egotouch_sdk.errors import ConfigError
+
+
+class _Section(BaseModel):
+    """Frozen settings that refuse unknown keys; every mistake is a `ConfigError` naming the field."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", protected_namespaces=())
+
+    @model_validator(mode="wrap")
+    @classmethod
+    def _explain(cls, data: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
+        try:
+            return handler(data)
+        except ValidationError as error:
+            raise _config_error(cls, error) from None
+
+
+def _config_error(section: type[BaseModel], error: ValidationError) -> ConfigError:
+    first = error.errors()[0]
+    path = ".".join(str(part) for part in first["loc"])
+    name = f"{section.__name__}.{path}" if path else section.__name__
+    if first["type"] == "extra_forbidden":
+        return ConfigError(f"there is no setting {name}", hint=_nearest(section, str(first["loc"][-1])))
+    return ConfigError(f"setting {name} is {first['input']!r}: {first['msg'][:1].lower()}{first['msg'][1:]}")
+
+
+def _nearest(section: type[BaseModel], unknown: str) -> str:
+    close = get_close_matches(unknown, section.model_fields, n=1)
+    return f"Did you mean {close[0]}?" if close else f"There are: {', '.join(section.model_fields)}"
+
+
+class HandsConfig(_Section):
+    """Hand tracking."""
+
+    max_hands: int = Field(default=2, ge=1, le=4, description="Hands to follow; a touch needs two (one touching, one touched).")
+    mirrored: bool = Field(default=False, description="The picture is a mirror image, as from a selfie camera; egocentric cameras are not.")
+    threads: int = Field(default=1, ge=1, le=64, description="Threads per hand network; they never spin while idle.")
+    palm_every: int = Field(
+        default=1,
+        ge=1,
+        le=60,
+        description="While a hand is tracked but another is missing, look for it every so many frames (1 as in MediaPipe).",
+    )
+
+
+class GateConfig(_Section):
+    """Which fingers are worth looking at. Lengths in palms: the host's own palm as seen in the image."""
+
+    near_enter_palms: float = Field(
+        default=3.0, gt=0, description="Hands closer than this count as near (EgoTouch, UIST'24, section 4: 3 palms)."
+    )
+    near_exit_palms: float = Field(
+        default=3.3, gt=0, description="Hands that were near stay so up to this distance (our choice, 10 % slack)."
+    )
+    over_enter_palms: float = Field(
+        default=0.5,
+        ge=0,
+        description="A fingertip may appear this far beside the host limb: 5 cm above it, seen from the side (our choice).",
+    )
+    over_exit_palms: float = Field(
+        default=0.7, ge=0, description="A fingertip that was over the limb may go this far before it leaves (our choice)."
+    )
+    forearm_palms: float = Field(
+        default=3.0, ge=0, description="Length of forearm behind the host wrist that can be touched; a forearm is 2.5 to 3 palms long."
+    )
+    forearm_half_angle_rad: float = Field(
+        default=0.8,
+        gt=0,
+        le=1.57,
+        description="How far the forearm may bend from the line middle MCP to wrist: 45 degrees of wrist motion.",
+    )
+    extended_enter: float = Field(
+        default=0.6,
+        gt=0,
+        lt=1,
+        description="A finger is not tucked in when MCP to tip is this share of its length; a fist has 0.3, a right-angled PIP 0.7.",
+    )
+    extended_exit: float = Field(default=0.5, gt=0, lt=1, description="A finger that was active stays so down to this share (our choice).")
+    swap_margin_palms: float = Field(
+        default=0.3, ge=0, description="The two hands change roles only when the other role fits better by this much (our choice)."
+    )
+    host_memory_ms: float = Field(
+        default=500.0,
+        ge=0,
+        description="A host hand that the touching hand hides is taken to stay where it was for this long (our choice).",
+    )
+
+    @model_validator(mode="after")
+    def _ordered(self) -> Self:
+        _require_order(self, "near_enter_palms", "near_exit_palms")
+        _require_order(self, "over_enter_palms", "over_exit_palms")
+        _require_order(self, "extended_exit", "extended_enter")
+        return self
+
+
+class PatchesConfig(_Section):
+    """Finger-up patches."""
+
+    max_patches: int = Field(
+        default=5, ge=1, le=10, description="Fingertips looked at per frame; those nearest to the host limb come first."
+    )
+
+
+class TouchModelConfig(_Section):
+    """The touch and force network."""
+
+    model_path: Path | None = Field(
+        default=None, description="A touch model (.onnx with its .json manifest beside it); None is the shipped one."
+    )
+    threads: int = Field(default=1, ge=1, le=64, description="Threads for the touch network; they never spin while idle.")
+
+
+class StateConfig(_Section):
+    """From touch probabilities to touch events. All times are capture time."""
+
+    down_probability: float | None = Field(
+        default=None, gt=0, lt=1, description="A touch begins at this probability; None takes the model's own."
+    )
+    up_probability: float | None = Field(
+        default=None, gt=0, lt=1, description="A touch ends below this probability; None takes the model's own."
+    )
+    coast_frames: int = Field(
+        default=2, ge=0, le=30, description="A fingertip may be unseen for so many frames; then its touch is cancelled."
+    )
+    stall_ms: float = Field(default=250.0, gt=0, description="A longer gap between two frames cancels every touch.")
+    max_speed_mm_s: float = Field(
+        default=3000.0, gt=0, description="No fingertip moves faster across the image or the host; fast reaches peak at about 3 m/s."
+    )
+    jump_slack_mm: float = Field(default=20.0, ge=0, description="Landmark noise that is allowed on top of the speed limit (our choice).")
+
+    @model_validator(mode="after")
+    def _ordered(self) -> Self:
+        if self.down_probability is not None and self.up_probability is not None:
+            _require_order(self, "up_probability", "down_probability")
+        return self
+
+
+class TouchConfig(_Section):
+    """All settings of the pipeline, one section per stage; the defaults work for an egocentric camera."""
+
+    hands: HandsConfig = HandsConfig()
+    gate: GateConfig = GateConfig()
+    patches: PatchesConfig = PatchesConfig()
+    touch: TouchModelConfig = TouchModelConfig()
+    state: StateConfig = StateConfig()
+
+
+def _require_order(section: BaseModel, low: str, high: str) -> None:
+    if getattr(section, low) > getattr(section, high):
+        raise ConfigError(
+            f"{type(section).__name__}.{low} is {getattr(section, low)}, more than {high} = {getattr(section, high)}",
+            hint="Give both, with the first at most as large as the second",
+        )
