@@ -39,6 +39,14 @@ def _nearest(section: type[BaseModel], unknown: str) -> str:
     return f"Did you mean {close[0]}?" if close else f"There are: {', '.join(section.model_fields)}"
 
 
+def _require_order(section: BaseModel, low: str, high: str) -> None:
+    if getattr(section, low) > getattr(section, high):
+        raise ConfigError(
+            f"{type(section).__name__}.{low} is {getattr(section, low)}, more than {high} = {getattr(section, high)}",
+            hint="Give both, with the first at most as large as the second",
+        )
+
+
 class HandsConfig(_Section):
     """Hand tracking."""
 
@@ -153,11 +161,3 @@ class TouchConfig(_Section):
     patches: PatchesConfig = PatchesConfig()
     touch: TouchModelConfig = TouchModelConfig()
     state: StateConfig = StateConfig()
-
-
-def _require_order(section: BaseModel, low: str, high: str) -> None:
-    if getattr(section, low) > getattr(section, high):
-        raise ConfigError(
-            f"{type(section).__name__}.{low} is {getattr(section, low)}, more than {high} = {getattr(section, high)}",
-            hint="Give both, with the first at most as large as the second",
-        )
