@@ -57,24 +57,27 @@ def hand_mesh_path(side: Handedness | str, folder: Path | None = None) -> Path:
 
 def _check(path: Path, side: Handedness) -> None:
     if not path.is_file():
-        raise SourceError(f"hand mesh {path} does not exist", hint=f"Put {side}.glb of {PACKAGE} {VERSION} there or unset {MESH_DIR_VARIABLE}")
+        hint = f"Put {side}.glb of {PACKAGE} {VERSION} there or unset {MESH_DIR_VARIABLE}"
+        raise SourceError(f"hand mesh {path} does not exist", hint=hint)
     digest = hashlib.sha256(path.read_bytes()).hexdigest()
     if digest != SHA256[side]:
-        raise SourceError(f"hand mesh {path} is not the one of {PACKAGE} {VERSION} (SHA-256 {digest[:12]}...)", hint="Delete it to fetch it again")
+        message = f"hand mesh {path} is not the one of {PACKAGE} {VERSION} (SHA-256 {digest[:12]}...)"
+        raise SourceError(message, hint="Delete it to fetch it again")
 
 
 def _fetch(target: Path) -> None:
     npm = shutil.which("npm")
     by_hand = f"Run `npm pack {PACKAGE}@{VERSION}` elsewhere, unpack {FOLDER} and set {MESH_DIR_VARIABLE} to that folder"
     if npm is None:
-        raise SourceError("the hand meshes are fetched with npm, which is not installed", hint=f"Install Node.js 20 or later. Or: {by_hand}")
+        hint = f"Install Node.js 20 or later. Or: {by_hand}"
+        raise SourceError("the hand meshes are fetched with npm, which is not installed", hint=hint)
     with tempfile.TemporaryDirectory(dir=cache_dir()) as scratch:
         command = [npm, "pack", f"{PACKAGE}@{VERSION}", "--pack-destination", scratch, "--silent"]
         try:
             subprocess.run(command, check=True, capture_output=True, text=True, timeout=_FETCH_TIMEOUT_S)
         except (subprocess.CalledProcessError, subprocess.TimeoutExpired) as error:
-            reason = (error.stderr or str(error)).strip().splitlines()[-1:] or [str(error)]
-            raise SourceError(f"npm could not fetch {PACKAGE} {VERSION}: {reason[0]}", hint=f"Check the network. Or: {by_hand}") from error
+            reason = str(error.stderr or error).strip().splitlines()[-1]
+            raise SourceError(f"npm could not fetch {PACKAGE} {VERSION}: {reason}", hint=f"Check the network. Or: {by_hand}") from error
         with tarfile.open(next(Path(scratch).glob("*.tgz"))) as archive:
             for side in Handedness:
                 member = archive.extractfile(f"{FOLDER}/{side}.glb")
@@ -83,4 +86,4 @@ def _fetch(target: Path) -> None:
                 (Path(scratch) / f"{side}.glb").write_bytes(member.read())
         target.mkdir(parents=True, exist_ok=True)
         for side in Handedness:
-            os.replace(Path(scratch) / f"{side}.glb", target / f"{side}.glb")
+            (Path(scratch) / f"{side}.glb").replace(target / f"{side}.glb")

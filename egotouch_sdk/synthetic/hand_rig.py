@@ -41,7 +41,7 @@ class HandRig:
         self.faces_at: tuple[IntArray, ...] = arrays.faces_at
         self.vertex_count_at: tuple[int, ...] = arrays.vertex_count_at
         self.bind: FloatArray = arrays.bind
-        self.inverse_bind: FloatArray = np.linalg.inv(arrays.bind)
+        self.inverse_bind: FloatArray = np.linalg.inv(arrays.bind).astype(np.float64)
         self.wrist_coords: FloatArray = (self.vertices - self.bind[0, :3, 3]) @ self.bind[0, :3, :3]
 
     @property
@@ -59,9 +59,9 @@ class HandRig:
         number = FINGERS.index(Finger(finger))
         return (1, 2, 3, 4) if number == 0 else tuple(range(5 * number, 5 * number + 5))
 
-    def mixed_faces(self, near: npt.NDArray[np.bool_]) -> tuple[IntArray, IntArray]:
-        """Vertex ids and faces at the finest level where `near` (n,), one level coarser elsewhere; see `mixed_resolution`."""
-        return mixed_resolution(self.faces_at, near, self.level)
+    def mixed_faces(self, *near: npt.NDArray[np.bool_]) -> tuple[IntArray, IntArray]:
+        """Vertex ids and faces, finest where the last mask of `near` (n,) holds, coarser outside; see `mixed_resolution`."""
+        return mixed_resolution(self.faces_at, near)
 
     def pose(self, rotations: Mapping[str, tuple[float, float, float]]) -> FloatArray:
         """Joint transforms (26, 4, 4) in the hand's rest frame for a pose.

@@ -96,21 +96,29 @@ def vertex_normals(vertices: FloatArray, faces: IntArray) -> FloatArray:
     return unit
 
 
-def mixed_resolution(faces_at: Sequence[IntArray], near: npt.NDArray[np.bool_], level: int) -> tuple[IntArray, IntArray]:
-    """Fine faces where wanted, one level coarser elsewhere.
+def mixed_resolution(faces_at: Sequence[IntArray], near: Sequence[npt.NDArray[np.bool_]]) -> tuple[IntArray, IntArray]:
+    """Fine faces where wanted, coarser ones elsewhere.
 
-    `faces_at[k]` are the faces after k subdivisions, `near` (n at `level`,) marks the vertices to keep fine. A coarse
-    face that touches a marked vertex is split, the others stay. Coarse and fine meet with T-junctions, far from what
-    is looked at: the two surfaces differ by less than the fine edge length there.
-    Returns (vertex ids into the full `level` mesh, ascending; faces over those ids).
+    `faces_at[k]` are the faces after k subdivisions. `near` holds one vertex mask (n at the finest level,) per refinement
+    wanted, widest first: with two masks, faces far from both stay two levels below the finest, faces that touch the
+    first are split once, those that touch the second twice. Resolutions meet with T-junctions, far from what is looked
+    at: the surfaces differ by less than the finer edge length there.
+    Returns (vertex ids into the finest mesh, ascending; faces over those ids).
     """
-    coarse = faces_at[level - 1]
-    split = near[coarse].any(axis=1)
-    fine = faces_at[level].reshape(4, len(coarse), 3)[:, split].reshape(-1, 3)
-    faces = np.vstack([coarse[~split], fine])
-    used = np.zeros(len(near), dtype=bool)
+    finest = len(faces_at) - 1
+    level = finest - len(near)
+    rows = np.arange(len(faces_at[level]))
+    kept = []
+    for mask in near:
+        faces = faces_at[level]
+        split = mask[faces[rows]].any(axis=1)
+        kept.append(faces[rows[~split]])
+        rows = (rows[split] + len(faces) * np.arange(4)[:, None]).ravel()
+        level += 1
+    faces = np.vstack([*kept, faces_at[level][rows]])
+    used = np.zeros(len(near[0]), dtype=bool)
     used[faces.ravel()] = True
     ids = np.flatnonzero(used)
-    renumber = np.zeros(len(near), dtype=np.int64)
+    renumber = np.zeros(len(used), dtype=np.int64)
     renumber[ids] = np.arange(len(ids))
     return ids, renumber[faces]

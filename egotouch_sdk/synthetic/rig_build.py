@@ -165,7 +165,7 @@ def _store(path: Path, arrays: RigArrays) -> None:
         weight_indptr=weights.indptr,
         **{f"faces{level}": faces.astype(np.int32) for level, faces in enumerate(arrays.faces_at)},  # type: ignore[arg-type]
     )
-    os.replace(scratch, path)
+    scratch.replace(path)
 
 
 def _unpack(stored: Any, level: int) -> RigArrays:
