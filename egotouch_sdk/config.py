@@ -114,8 +114,8 @@ class GateConfig(_Section):
 class PatchesConfig(_Section):
     """Finger-up patches."""
 
-    max_patches: int = Field(
-        default=5, ge=1, le=10, description="Fingertips looked at per frame; those nearest to the host limb come first."
+    min_px_per_mm: float = Field(
+        default=0.4, gt=0, description="Fingertips seen smaller than this are left out: 40 mm of skin would be under 16 px (our choice)."
     )
 
 

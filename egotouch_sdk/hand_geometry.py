@@ -8,7 +8,7 @@ from math import hypot
 import numpy as np
 
 from egotouch_sdk.joints import HandJoint
-from egotouch_sdk.observation import HandObservation
+from egotouch_sdk.observation import FloatArray, HandObservation
 
 #: A wrist to middle-MCP axis seen shorter than this share of the palm is too foreshortened to measure by (our choice).
 MIN_AXIS_SHARE = 0.25
@@ -36,6 +36,11 @@ def px_per_mm(hand: HandObservation) -> float | None:
     if metric_spread < 1.0 or image_spread < 1.0:
         return None
     return image_spread / metric_spread
+
+
+def shape(hand: HandObservation) -> FloatArray:
+    """Points (21, 3) to measure the hand's pose by, in no particular unit: the metric ones, or the image's where there are none."""
+    return hand.landmarks_px if px_per_mm(hand) is None else hand.world_mm
 
 
 def has_axis(host: HandObservation) -> bool:

@@ -6,6 +6,7 @@ from enum import StrEnum
 from math import hypot
 
 from egotouch_sdk import hand_geometry
+from egotouch_sdk.config import PatchesConfig
 from egotouch_sdk.frame import Frame
 from egotouch_sdk.joints import Finger, HandJoint, Handedness
 from egotouch_sdk.observation import FingertipPatch, HandObservation, TouchPair
@@ -13,10 +14,10 @@ from egotouch_sdk.patches.cut import cut_patch
 from egotouch_sdk.patches.polar import HOST_UNKNOWN, polar
 from egotouch_sdk.patches.scale import tip_px_per_mm
 
-#: Fewest image pixels a millimetre may have: below, 40 mm of skin are under 16 px and show no contact (our choice).
-MIN_PX_PER_MM = 0.4
 #: A finger seen shorter than this from DIP to TIP points at the camera and has no direction in the image (our choice).
 MIN_DIRECTION_PX = 1.0
+
+DEFAULTS = PatchesConfig()
 
 
 class PatchRefusal(StrEnum):
@@ -27,18 +28,18 @@ class PatchRefusal(StrEnum):
     TOO_SMALL = "too_small"
 
 
-def extract(frame: Frame, pair: TouchPair, *, mirrored: bool = False) -> tuple[FingertipPatch, ...]:
+def extract(frame: Frame, pair: TouchPair, config: PatchesConfig = DEFAULTS, *, mirrored: bool = False) -> tuple[FingertipPatch, ...]:
     """Cut one patch for each active finger of the touching hand, in the pair's order.
 
     Fingers that `refusal` names a reason for are left out. `mirrored` says that the picture itself is a mirror image (a selfie
     camera), in which the wearer's right hand looks like a left one.
     """
     return tuple(
-        _patch(frame, pair, finger, mirrored) for finger in pair.active_fingers if refusal(frame, pair.touching, finger) is None
+        _patch(frame, pair, finger, mirrored) for finger in pair.active_fingers if refusal(frame, pair.touching, finger, config) is None
     )
 
 
-def refusal(frame: Frame, hand: HandObservation, finger: Finger) -> PatchRefusal | None:
+def refusal(frame: Frame, hand: HandObservation, finger: Finger, config: PatchesConfig = DEFAULTS) -> PatchRefusal | None:
     """The reason why this fingertip cannot be cut from this frame, or None when it can."""
     tip, dip = hand.xy_px(finger.tip), hand.xy_px(finger.dip)
     if not (-0.5 <= tip[0] <= frame.width_px - 0.5 and -0.5 <= tip[1] <= frame.height_px - 0.5):
@@ -46,7 +47,7 @@ def refusal(frame: Frame, hand: HandObservation, finger: Finger) -> PatchRefusal
     if hypot(float(tip[0] - dip[0]), float(tip[1] - dip[1])) < MIN_DIRECTION_PX:
         return PatchRefusal.NO_DIRECTION
     scale = tip_px_per_mm(hand, finger)
-    if scale is None or scale < MIN_PX_PER_MM:
+    if scale is None or scale < config.min_px_per_mm:
         return PatchRefusal.TOO_SMALL
     return None
 
