@@ -1,0 +1,43 @@
+"""Procedural things behind the hands: desk, cloth, floor, clutter."""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+import numpy.typing as npt
+
+from egotouch_sdk.synthetic.linalg import Array, unit
+from egotouch_sdk.synthetic.render import Backdrop
+
+_SIZE = 256
+
+
+def linear(srgb: Array) -> Array:
+    """sRGB 0..255 to linear 0..1 (IEC 61966-2-1)."""
+    c = np.asarray(srgb, float) / 255.0
+    return np.where(c < 0.04045, c / 12.92, ((c + 0.055) / 1.055) ** 2.4)
+
+
+def draw_texture(rng: np.random.Generator) -> npt.NDArray[np.float32]:
+    """A random linear albedo texture (256, 256, 3): plain, striped, checked or mottled, with some objects on it."""
+    base = linear(np.clip(rng.uniform(25, 235) * np.exp(rng.normal(0, rng.choice([0.07, 0.25], p=[0.7, 0.3]), 3)), 5, 245))
+    y, x = np.mgrid[0:_SIZE, 0:_SIZE] / _SIZE
+    noise = sum(cv2.resize(rng.standard_normal((2**k, 2**k)), (_SIZE, _SIZE), interpolation=cv2.INTER_CUBIC) / 1.6**k for k in range(2, 8))
+    checks = rng.integers(3, 14)
+    pattern = (
+        1 + 0.08 * noise,
+        1 + 0.12 * np.sin(2 * np.pi * (x * rng.uniform(4, 12) + 0.2 * noise)) + 0.08 * noise,
+        1 + 0.3 * ((np.floor(x * checks) + np.floor(y * checks)) % 2 - 0.5) + 0.05 * noise,
+        1 + 0.3 * noise,
+    )[rng.integers(4)]
+    image = np.ascontiguousarray(base * np.clip(pattern, 0.05, 3)[..., None])
+    for _ in range(rng.integers(0, 14)):
+        p = rng.integers(0, _SIZE, 2)
+        q = p + rng.integers(5, 80, 2)
+        cv2.rectangle(image, p.tolist(), q.tolist(), linear(rng.uniform(10, 245, 3)).tolist(), -1)
+    return np.clip(cv2.GaussianBlur(image.astype(np.float32), (0, 0), rng.uniform(0.5, 3)), 0.004, 0.95).astype(np.float32)
+
+
+def draw_backdrop(rng: np.random.Generator, contact: Array, view: Array, up: Array) -> Backdrop:
+    """A random plane 8 to 50 cm behind the contact point, roughly facing the camera."""
+    return Backdrop(contact - view * rng.uniform(0.08, 0.5), unit(view + rng.normal(0, 0.25, 3)), up, draw_texture(rng))

@@ -1,0 +1,53 @@
+"""`egotouch synth`: render training patches and look at them."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from pathlib import Path
+from typing import Any
+
+_EXAMPLES = """examples:
+  egotouch synth patches --out data/patches --series 1000   # 8,000 labelled patches; stop and restart as you like
+  egotouch synth sheet data/patches sheet.png               # look at some of them
+"""
+
+
+def add_parser(subparsers: Any) -> None:
+    """Register `synth` and its own commands."""
+    synth = subparsers.add_parser("synth", help="render synthetic touches with exact labels", epilog=_EXAMPLES, formatter_class=argparse.RawDescriptionHelpFormatter)
+    commands = synth.add_subparsers(dest="synth_command", required=True)
+    patches = commands.add_parser("patches", help="render labelled fingertip patches (resumable)")
+    patches.add_argument("--out", type=Path, required=True, help="folder for the shards")
+    patches.add_argument("--series", type=int, default=1000, help="scenes of 8 patches each (default 1000)")
+    patches.add_argument("--participants", type=int, default=24, help="different skins (default 24)")
+    patches.add_argument("--samples", type=int, default=16, help="light paths per pixel (default 16)")
+    patches.add_argument("--seed", type=int, default=0)
+    patches.add_argument("--workers", type=int, default=os.cpu_count() or 1, help="processes (default: all cores)")
+    patches.set_defaults(run=_patches)
+    sheet = commands.add_parser("sheet", help="contact sheet of a folder of patches")
+    sheet.add_argument("folder", type=Path)
+    sheet.add_argument("picture", type=Path)
+    sheet.add_argument("--rows", type=int, default=10)
+    sheet.add_argument("--seed", type=int, default=0)
+    sheet.set_defaults(run=_sheet)
+
+
+def _patches(args: argparse.Namespace) -> int:
+    from egotouch_sdk.synthetic.patches_job import PatchJob, run
+
+    job = PatchJob(args.seed, args.series, args.participants, args.samples)
+    made = run(job, args.out, args.workers, lambda line: print(line, file=sys.stderr, flush=True))
+    print(f"{made} new patches in {args.out}")
+    return 0
+
+
+def _sheet(args: argparse.Namespace) -> int:
+    import cv2
+
+    from egotouch_sdk.synthetic.sheet import contact_sheet
+
+    cv2.imwrite(str(args.picture), contact_sheet(args.folder, args.rows, args.seed))
+    print(args.picture)
+    return 0
