@@ -10,10 +10,10 @@ from typing import Any
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
 
-class HandModelsHook(BuildHookInterface[Any]):
+class HandModelsHook(BuildHookInterface):  # type: ignore[misc,unused-ignore]
     """Runs `egotouch_sdk.hands.convert` before a wheel is packed; a source distribution stays free of third-party weights."""
 
-    def initialize(self, version: str, build_data: dict[str, Any]) -> None:
+    def initialize(self, version: str, build_data: dict[str, Any]) -> None:  # noqa: ARG002 (hatchling's signature)
         """Fill egotouch_sdk/models/hands; a failure ends the build with one message."""
         if self.target_name != "wheel":
             return

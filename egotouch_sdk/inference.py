@@ -31,4 +31,5 @@ def create_session(path: str | Path, threads: int = 1) -> onnxruntime.InferenceS
         return onnxruntime.InferenceSession(str(path), options, providers=["CPUExecutionProvider"])
     except Exception as error:  # ONNX Runtime raises plain RuntimeError subclasses of its own
         reason = str(error).splitlines()[0]
-        raise ModelError(f"{path} could not be loaded as an ONNX network ({reason})", hint="Reinstall egotouch-sdk, or check the path") from error
+        hint = "Check the path, or install egotouch-sdk again"
+        raise ModelError(f"{path} could not be loaded as an ONNX network ({reason})", hint=hint) from error

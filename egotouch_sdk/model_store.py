@@ -49,7 +49,7 @@ def hand_model(name: str, folder: Path = HANDS_DIR) -> Path:
         entry = manifest["models"][name]
         file, digest = str(entry["file"]), str(entry["sha256"])
     except (KeyError, TypeError) as error:
-        known = manifest.get("models")
-        known_names = ", ".join(sorted(known)) if isinstance(known, dict) else "none"
-        raise ModelError(f"no hand network called {name!r} was built into this package (there is: {known_names})", hint=_REINSTALL) from error
+        models = manifest.get("models")
+        known = ", ".join(sorted(models)) if isinstance(models, dict) else "none"
+        raise ModelError(f"no hand network called {name!r} was built into this package (there is: {known})", hint=_REINSTALL) from error
     return checked_file(folder / file, digest)

@@ -64,7 +64,8 @@ def build_hand_models(folder: Path, *, lite: bool = False, report: Callable[[str
     entries = {}
     with open_wheel() as wheel:
         for network in wanted:
-            data = convert(read_member(wheel, network.member, network.sha256), network.outputs, network.name).SerializeToString(deterministic=True)
+            model = convert(read_member(wheel, network.member, network.sha256), network.outputs, network.name)
+            data = model.SerializeToString(deterministic=True)
             (folder / network.file).write_bytes(data)
             entries[network.name] = _entry(network, data)
             report(f"hand networks: {network.file} ({len(data) / 1e6:.1f} MB)")

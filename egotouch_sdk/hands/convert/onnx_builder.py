@@ -43,7 +43,7 @@ class OnnxBuilder:
         return output
 
     def constant(self, name: str, value: Array) -> str:
-        """Store a constant once; weights that were float16 in the source stay float16 on disk behind a Cast (same values, half the file)."""
+        """Store a constant once; float16 weights of the source stay float16 on disk behind a Cast (same values, half the file)."""
         if name in self._constants or f"{name}_half" in self._constants:
             return name
         value = np.ascontiguousarray(value)
@@ -64,7 +64,7 @@ class OnnxBuilder:
         if activation == kinds.RELU:
             self.node("Relu", [raw], self.name(tensor))
         elif activation == kinds.RELU6:
-            limits = [self.constant("zero", np.float32(0)), self.constant("six", np.float32(6))]
+            limits = [self.constant("zero", np.array(0, np.float32)), self.constant("six", np.array(6, np.float32))]
             self.node("Clip", [raw, *limits], self.name(tensor))
         else:
             raise ModelError(f"TFLite activation {activation} is not supported")
@@ -75,7 +75,9 @@ class OnnxBuilder:
             return self.name(tensor)
         return self.node("Transpose", [self.name(tensor)], f"{self.name(tensor)}_nhwc", perm=[0, 2, 3, 1])
 
-    def window_pads(self, tensor: int, kernel: tuple[int, int], stride: tuple[int, int], dilation: tuple[int, int], padding: int) -> list[int]:
+    def window_pads(
+        self, tensor: int, kernel: tuple[int, int], stride: tuple[int, int], dilation: tuple[int, int], padding: int
+    ) -> list[int]:
         """ONNX pads [top, left, bottom, right] of a TFLite window; with SAME the odd pixel goes to the bottom and right."""
         if padding == Padding.VALID:
             return [0, 0, 0, 0]

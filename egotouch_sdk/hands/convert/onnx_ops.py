@@ -111,7 +111,8 @@ def _fully_connected(builder: OnnxBuilder, op: Operator) -> None:
         if builder.graph.shapes[op.inputs[0]][1:3] != (1, 1):
             raise ModelError("a fully connected layer over an image larger than 1x1 is not supported")
         source = builder.node("Flatten", [source], f"flat{op.output}", axis=1)
-    weights, bias = (builder.constant(f"{kind}{op.output}", builder.graph.constants[n]) for kind, n in zip(("weights", "bias"), op.inputs[1:], strict=True))
+    weights = builder.constant(f"weights{op.output}", builder.graph.constants[op.inputs[1]])
+    bias = builder.constant(f"bias{op.output}", builder.graph.constants[op.inputs[2]])
     builder.activated("Gemm", [source, weights, bias], op.output, op.options["FusedActivationFunction"], transB=1)
 
 

@@ -54,18 +54,23 @@ def _download(folder: Path) -> Path:
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     wheel = folder / WHEEL_NAME
     if done.returncode != 0 or not wheel.is_file():
-        said = next((line.strip() for line in reversed(done.stderr.splitlines()) if line.strip().startswith("ERROR")), f"exit code {done.returncode}")
         raise ModelError(
-            f"the hand networks could not be downloaded: pip found no {WHEEL_NAME} on the configured package index ({said})",
-            hint=f"Check the network and 'pip config list', then install again; or fetch that wheel elsewhere and set {WHEEL_VARIABLE} to its path",
+            f"the hand networks could not be downloaded: no {WHEEL_NAME} from the configured package index ({_reason(done)})",
+            hint=f"Check the network and 'pip config list', then install again; or set {WHEEL_VARIABLE} to a local copy of that wheel",
         )
     found = sha256(wheel.read_bytes())
     if found != WHEEL_SHA256:
         raise ModelError(
-            f"the downloaded {WHEEL_NAME} has sha256 {found}, but the published one has {WHEEL_SHA256}",
-            hint=f"The package index served an altered or broken file: clear pip's cache ('pip cache remove mediapipe') or use another index, or set {WHEEL_VARIABLE}",
+            f"the package index served a {WHEEL_NAME} with sha256 {found}, but the published one has {WHEEL_SHA256}",
+            hint=f"Run 'pip cache remove mediapipe' or use another index; or set {WHEEL_VARIABLE} to a local copy of that wheel",
         )
     return wheel
+
+
+def _reason(done: subprocess.CompletedProcess[str]) -> str:
+    lines = [line.strip() for line in done.stderr.splitlines() if line.strip()]
+    errors = [line for line in lines if line.startswith("ERROR")]
+    return f"pip said: {(errors or lines or ['nothing'])[-1]}"
 
 
 def read_member(wheel: Path, member: str, expected_sha256: str) -> bytes:
