@@ -16,6 +16,8 @@ _DEPTH_M = 0.00036
 _DARK = 0.75
 #: Distance from the knuckle to the crease at the finger's root, where the palm's web begins.
 _ROOT_CREASE_M = 0.021
+#: Wrinkles over the knuckles at the finger's root are faint while the hand is open.
+_KNUCKLE_SHARE = 0.25
 #: The three main palm lines in the mirrored wrist frame, (x, z) in millimetres: thumb's, head's and heart's line.
 _PALM_LINES_MM = (
     ((34, -72), (16, -62), (2, -42), (-2, -20), (2, -4)),
@@ -36,7 +38,8 @@ def carve_finger_creases(side: SkinSide, relief: Relief, strength: float) -> Non
             for line in range(palmar_lines + 4):
                 palmar = line < palmar_lines
                 shift = -_ROOT_CREASE_M if palmar and at_root and finger is not Finger.THUMB else 0.0
-                _carve_joint_line(side, relief, rng, finger, joint, line, palmar, shift, strength)
+                share = _KNUCKLE_SHARE if at_root and not palmar else 1.0
+                _carve_joint_line(side, relief, rng, finger, joint, line, palmar, shift, strength * share)
 
 
 def _carve_joint_line(
@@ -87,7 +90,7 @@ def _carve_path(side: SkinSide, relief: Relief, path: Array, width_m: float, str
     flat = points[ids][:, [0, 2]]
     near = _within_box(flat, curve, 0.006)
     ids, flat = ids[near], flat[near]
-    wobble = [0.0012 * side.noise(0.008, salt + k, ids) + 0.00035 * side.noise(0.002, salt + 2 + k, ids) for k in range(2)]
+    wobble = [0.0009 * side.noise(0.008, salt + k, ids) + 0.00013 * side.noise(0.002, salt + 2 + k, ids) for k in range(2)]
     distance, nearest = cKDTree(curve).query(flat + np.stack(wobble, axis=1))
     ends = np.sqrt(np.sin(np.pi * np.clip(t[nearest] * 0.94 + 0.03, 0, 1))) * strength
     sharp = np.exp(-((distance / width_m) ** 2)) * ends * np.clip(0.8 + 0.35 * side.noise(0.006, salt + 4, ids), 0.1, 1.3)

@@ -106,7 +106,7 @@ def bake_side(rig: HandRig, seed: int, traits: SkinTraits) -> BakedSide:
     carve_wrist(side, relief, traits.creases)
     _carve_texture(side, relief, nails.nail)
     vein = _veins(side, traits.veins)
-    relief.height_m += 0.0007 * vein * (1 - side.palmar)
+    relief.height_m += 0.00035 * vein * (1 - side.palmar)
 
     tree = cKDTree(side.points)
     pigment = spots(side, tree, traits.freckles, traits.moles)
@@ -139,7 +139,7 @@ def _veins(side: SkinSide, strength: float) -> Array:
     """Mask (n,) of branching veins on the back of the hand and the forearm: ridges of stretched noise."""
     points = side.points
     stretched = noise(points * [1, 1, 0.45], 0.011, side.seed + 405)
-    ridge = np.exp(-(((stretched + 0.25 * side.noise(0.006, 406)) / 0.12) ** 2)) * smoothstep(-0.2, 0.3, side.noise(0.03, 407))
+    ridge = np.exp(-(((stretched + 0.25 * side.noise(0.006, 406)) / 0.28) ** 2)) * smoothstep(-0.2, 0.3, side.noise(0.03, 407))
     return np.asarray(strength * ridge * np.where(points[:, 2] > 0.02, 1.0, 1 - side.palmar) * (points[:, 2] > -0.085))
 
 

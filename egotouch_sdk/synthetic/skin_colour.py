@@ -13,7 +13,7 @@ from egotouch_sdk.synthetic.skin_traits import SkinTraits, srgb_to_linear
 _MELANIN = np.array([0.35, 0.55, 0.70])
 _BLOOD = np.array([0.04, 0.42, 0.34])
 _FURROW = np.array([0.26, 0.56, 0.64])
-_VEIN = np.array([0.25, 0.10, 0.02])
+_VEIN = np.array([0.22, 0.10, 0.03])
 _HAIR = np.array([1.0, 1.08, 1.15])
 _DARK_SKIN = 4.5
 
@@ -22,9 +22,9 @@ def palm_tone(traits: SkinTraits) -> Array:
     """Albedo (3,) of the palm: pinker than the back of the hand, and on dark skin much lighter."""
     tone = np.array(traits.tone)
     if traits.fitzpatrick <= 3.5:
-        return np.asarray(tone**0.96 * [1.06, 0.87, 0.85])
-    lightened = np.maximum(tone**0.75 * [1.06, 0.90, 0.86], tone)
-    return np.asarray(0.6 * lightened + 0.4 * srgb_to_linear([205, 145, 126]) * (1 - 0.1 * (traits.fitzpatrick - 3.5)))
+        return np.asarray(tone**0.96 * [1.04, 0.96, 1.08])
+    lightened = np.maximum(tone**0.75 * [1.04, 0.96, 1.08], tone)
+    return np.asarray(0.6 * lightened + 0.4 * srgb_to_linear([203, 150, 138]) * (1 - 0.1 * (traits.fitzpatrick - 3.5)))
 
 
 def paint(side: SkinSide, traits: SkinTraits, relief: Relief, nails: NailMasks, vein: Array, pigment: Array, hair: Array) -> Array:
@@ -39,7 +39,7 @@ def paint(side: SkinSide, traits: SkinTraits, relief: Relief, nails: NailMasks, 
     blood = traits.redness * traits.mottle * (0.08 * side.noise(0.014, 413) + 0.05 * side.noise(0.0045, 414) + 0.02 * side.noise(0.0018, 415))
     blood += 0.35 * traits.redness * (0.8 * nails.pulp + 0.6 * knuckles) + 0.25 * traits.redness * palm
 
-    back = np.array(traits.tone) * [1.0, 0.985, 0.93]
+    back = np.array(traits.tone) * [1.0, 0.99, 0.95]
     skin = back * (1 - palm[:, None]) + palm_tone(traits) * palm[:, None]
     absorbed = melanin[:, None] * _MELANIN * (0.55 if light_skin else 1.0)
     absorbed = absorbed + np.clip(blood, -0.6, 2)[:, None] * _BLOOD * (1.0 if light_skin else 0.55)
