@@ -43,7 +43,7 @@ def draw_tissue(rng: np.random.Generator, place: str) -> Tissue:
     share = {"palm": 0.68, "back_of_hand": 0.42, "inner_forearm": 0.68, "outer_forearm": 0.6}[place]
     return Tissue(
         stiffness * float(np.exp(rng.normal(0, 0.2))), float(np.clip(share + rng.normal(0, 0.06), 0.3, 0.85)),
-        float(rng.uniform(0.0018, 0.0055)), float(rng.uniform(0.25, 0.75)),
+        float(np.exp(rng.uniform(np.log(0.001), np.log(0.005)))), float(rng.uniform(0.25, 0.75)),
     )
 
 

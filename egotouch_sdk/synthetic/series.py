@@ -23,7 +23,8 @@ SIDE_PX = 144
 PX_PER_MM = 2.5
 _VIEWS = 2
 _MAX_DRAWS = 400
-_UNSEEN = 0.72
+_CAMERA_DRAWS = 12
+_LEAST_FACING = 0.72
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,11 +61,13 @@ def draw_depths(rng: np.random.Generator) -> list[dict[str, float]]:
 def _cameras(rng: np.random.Generator, stage: Stage) -> list[tuple[Array, float]]:
     """Direction (3,) from the contact and distance (m) of each view; the first is the plan's own."""
     chosen = [(stage.view, stage.plan.distance_m)]
-    while len(chosen) < _VIEWS:
+    for _ in range(_CAMERA_DRAWS):
         direction, distance = unit(stage.view + rng.normal(0, 0.25, 3)), float(rng.uniform(0.26, 0.5))
-        visible = direction @ stage.normal > _UNSEEN and not stage.hidden_from(stage.contact + direction * distance)
-        chosen.append((direction, distance) if visible else chosen[0])
-    return chosen
+        if direction @ stage.normal > _LEAST_FACING and not stage.hidden_from(stage.contact + direction * distance):
+            chosen.append((direction, distance))
+        if len(chosen) == _VIEWS:
+            return chosen
+    return chosen * _VIEWS
 
 
 def _patch_camera(touch: Touch, stage: Stage, direction: Array, distance: float) -> Camera:

@@ -173,7 +173,7 @@ class Stage:
         touch_v = touch_v + shift
         if force_n > 0:
             host_v, touch_v, host_albedo, dent_mm = self._press(touch_v, sink, force_n, host_albedo)
-            touch_albedo = self._blanch_nail(touch_albedo, force_n)
+            touch_albedo = touch_albedo if self._identity.polished else self._blanch_nail(touch_albedo, force_n)
         return Touch(
             Surface(host_v, self._host_faces, host_albedo, skin_l.roughness[self._host_ids]),
             Surface(touch_v, self._touch_faces, touch_albedo, skin_r.roughness[self._touch_ids]),
@@ -193,7 +193,7 @@ class Stage:
         sideways = normals_up - self.normal * up[:, None]
         touch_v = touch_v.copy()
         touch_v[self._pad] += self.normal * lift[:, None] + sideways * bulge[:, None]
-        pale = min(1.0, force_n / 2.5) * 0.22 * np.exp(-(((np.linalg.norm(local[:, :2], axis=1) - dent.radius_m) / 0.004) ** 2))
+        pale = min(1.0, force_n / 2.5) * 0.12 * np.exp(-(((np.linalg.norm(local[:, :2], axis=1) - dent.radius_m) / 0.004) ** 2))
         host_albedo[self._near] = _towards_pale(host_albedo[self._near], pale * weight)
         return host_v, touch_v, host_albedo, dent.depth_max_m * 1e3
 
