@@ -50,7 +50,7 @@ def _require_order(section: BaseModel, low: str, high: str) -> None:
 class HandsConfig(_Section):
     """Hand tracking."""
 
-    max_hands: int = Field(default=2, ge=1, le=4, description="Hands to follow; a touch needs two (one touching, one touched).")
+    max_hands: int = Field(default=2, ge=1, le=2, description="Hands to follow; a touch needs two (one touching, one touched).")
     mirrored: bool = Field(default=False, description="The picture is a mirror image, as from a selfie camera; egocentric cameras are not.")
     threads: int = Field(default=1, ge=1, le=64, description="Threads per hand network; they never spin while idle.")
     palm_every: int = Field(
@@ -64,6 +64,9 @@ class HandsConfig(_Section):
 class GateConfig(_Section):
     """Which fingers are worth looking at. Lengths in palms: the host's own palm as seen in the image."""
 
+    min_touching_score: float = Field(
+        default=0.5, ge=0, le=1, description="The touching hand must be seen; a hidden hand that the tracker carries on scores below 0.5."
+    )
     near_enter_palms: float = Field(
         default=3.0, gt=0, description="Hands closer than this count as near (EgoTouch, UIST'24, section 4: 3 palms)."
     )

@@ -7,6 +7,10 @@ from dataclasses import replace
 from egotouch_sdk.observation import GateResult, HandObservation
 
 
+#: Hands below this score were not seen but carried on (the tracker's presence threshold).
+SEEN_SCORE = 0.5
+
+
 class HostMemory:
     """Adds the last seen host to a frame in which only the touching hand was found.
 
@@ -36,7 +40,7 @@ class HostMemory:
     def note(self, result: GateResult, timestamp_ns: int) -> None:
         """Remember the host of an open gate, if it was seen in this very frame."""
         for pair in result.pairs:
-            if pair.host.score > 0.0:
+            if pair.host.score >= SEEN_SCORE:
                 self._host, self._touching_id, self._seen_ns = pair.host, pair.touching.hand_id, timestamp_ns
 
     def reset(self) -> None:

@@ -68,7 +68,7 @@ def _candidate(touching: HandObservation, host: HandObservation, config: GateCon
     already = held.active_fingers if held else ()
     limb = Limb(host, config)
     distance = limb.hand_distance_palms(touching.landmarks_px[_TIPS, :2])
-    is_near = distance <= (config.near_exit_palms if held else config.near_enter_palms)
+    is_near = touching.score >= config.min_touching_score and distance <= (config.near_exit_palms if held else config.near_enter_palms)
     active = active_fingers(touching, config, already) if is_near else ()
     gaps = {finger: limb.gap_palms(*touching.xy_px(finger.tip).tolist()) for finger in active}
     over = tuple(
