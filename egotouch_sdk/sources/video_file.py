@@ -18,6 +18,8 @@ from egotouch_sdk.sources.presentation import PresentationTimes, sound_fps
 #: A file may announce slightly more frames than it holds (edit lists, rounding); more missing than this is worth a warning.
 MISSING_FRAMES_TOLERATED = 2
 MISSING_SHARE_TOLERATED = 0.05
+#: Reads that may fail in a row before the file counts as over: a damaged stretch is passed over (our choice, about 2 s).
+FAILED_READS_TOLERATED = 60
 
 
 class VideoFileSource(FrameSource):
@@ -25,7 +27,7 @@ class VideoFileSource(FrameSource):
 
     `fps` replaces the file's own times by a constant rate. Each iteration starts at the first frame.
     Raises `SourceError` when the file is missing, is no video, or holds not one frame that decodes. A file that breaks off
-    early delivers what decodes and then ends with a `SourceWarning`.
+    early or is damaged delivers what decodes and then ends with a `SourceWarning`.
     """
 
     def __init__(self, path: str | Path, *, fps: float | None = None) -> None:
@@ -73,10 +75,13 @@ class VideoFileSource(FrameSource):
         self._fresh = False
         times = PresentationTimes(self._fps, constant_fps=self._constant_fps)
         index = 0
-        while True:
+        failed = 0
+        while failed < FAILED_READS_TOLERATED:
             ok, image = self._capture.read()
             if not ok:
-                break
+                failed += 1
+                continue
+            failed = 0
             yield Frame(np.asarray(image, np.uint8), times.next_ns(self._capture.get(cv2.CAP_PROP_POS_MSEC)), index)
             index += 1
         self._check_end(index, times.repaired)
@@ -99,6 +104,6 @@ class VideoFileSource(FrameSource):
             raise SourceError(f"not one frame of {self.path} can be decoded", hint="Record or convert the file again")
         announced = self._frame_count or delivered
         if announced - delivered > max(MISSING_FRAMES_TOLERATED, MISSING_SHARE_TOLERATED * announced):
-            warnings.warn(f"{self.path} breaks off after {delivered} of {announced} frames", SourceWarning, stacklevel=3)
+            warnings.warn(f"{self.path} is damaged or cut off: {delivered} of {announced} frames decoded", SourceWarning, stacklevel=3)
         if repaired:
             warnings.warn(f"{self.path} states times that do not rise; {repaired} were replaced", SourceWarning, stacklevel=3)

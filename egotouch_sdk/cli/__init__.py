@@ -1,0 +1,1 @@
+"""The command `egotouch`: one module per subcommand, typed errors as one line, no logic of its own."""

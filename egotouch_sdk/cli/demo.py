@@ -1,0 +1,94 @@
+"""`egotouch demo`: the packaged clip through the whole pipeline, scored against its ground truth."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+import tempfile
+from pathlib import Path
+
+from egotouch_sdk.cli.options import Subparsers, add_command, positive_int
+from egotouch_sdk.cli.output import EventPrinter, Progress, print_json
+from egotouch_sdk.cli.play import play
+from egotouch_sdk.cli.views import Views
+from egotouch_sdk.errors import SourceError
+from egotouch_sdk.touch_event import TouchEvent
+
+ASSETS = Path(__file__).parent.parent / "assets"
+EXAMPLES = """\
+  egotouch demo                          live view in the browser, one line per event
+  egotouch demo --headless               the terminal only
+  egotouch demo --headless --fast        as quick as this machine can
+  egotouch demo --json --headless        one JSON object per event, the scoreboard last
+  egotouch demo --save annotated.mp4     keep the annotated view as a video
+"""
+
+
+def add_parser(subparsers: Subparsers) -> None:
+    """Add `demo` to the command line."""
+    parser = add_command(subparsers, "demo", "play a clip of touches on skin through the whole pipeline, without a camera", EXAMPLES)
+    parser.add_argument("--headless", action="store_true", help="no view: print events only")
+    parser.add_argument("--fast", action="store_true", help="do not hold frames back to real time")
+    parser.add_argument("--json", action="store_true", help="one JSON object per event on stdout, the scoreboard last")
+    parser.add_argument("--save", type=Path, metavar="FILE.mp4", help="write the annotated view to a video file")
+    parser.add_argument("--port", type=int, default=0, help="port of the live view on 127.0.0.1 (default: a free one)")
+    parser.add_argument("--threads", type=positive_int, default=1, metavar="N", help="threads per network (default 1)")
+    parser.set_defaults(run=demo)
+
+
+def demo(options: argparse.Namespace) -> int:
+    """Play the clip, print its events and the scoreboard."""
+    from egotouch_sdk.cli.main import EXIT_INTERRUPTED
+    from egotouch_sdk.config import TouchConfig
+    from egotouch_sdk.evaluation.scoreboard import ClipTruth, score
+    from egotouch_sdk.pipeline import TouchPipeline
+    from egotouch_sdk.sources import VideoFileSource
+
+    clip, truth_file = ASSETS / "demo.mp4", ASSETS / "demo_truth.json"
+    if not (clip.is_file() and truth_file.is_file()):
+        raise SourceError(f"this install lacks the demo clip {clip}", hint="Install the package again, or use: egotouch run SOURCE")
+    truth = ClipTruth.from_dict(json.loads(truth_file.read_text(encoding="utf-8")))
+    pipeline = TouchPipeline(TouchConfig.model_validate({"hands": {"threads": options.threads}, "touch": {"threads": options.threads}}))
+    events: list[TouchEvent] = []
+    printer = EventPrinter(options.json, Progress(None))
+
+    def on_event(event: TouchEvent) -> None:
+        events.append(event)
+        printer(event)
+
+    with VideoFileSource(clip) as source:
+        saved, views = _open_views(options, source.fps)
+        with views:
+            outcome = play(source, pipeline, on_event, views, paced=not options.fast)
+    board = score(truth.until(outcome.last_timestamp_ns) if outcome.interrupted else truth, events)
+    if options.json:
+        print_json({"scoreboard": board.to_dict()})
+    else:
+        _print_scoreboard(board.to_dict())
+    sys.stderr.write(f"{outcome.frames} frames in {outcome.wall_s:.1f} s ({outcome.fps:.1f} per second)\n")
+    if saved:
+        sys.stderr.write(f"annotated video: {saved}\n")
+    return EXIT_INTERRUPTED if outcome.interrupted else 0
+
+
+def _open_views(options: argparse.Namespace, fps: float | None) -> tuple[Path | None, Views]:
+    """The view in the browser; where there is no desktop, a video file in its place."""
+    views = Views("egotouch demo", show=not options.headless, save=options.save, fps=fps, port=options.port)
+    if options.headless or views.show_in_browser() or options.save:
+        return options.save, views
+    views.close()
+    saved = Path(tempfile.gettempdir()) / "egotouch-demo.mp4"
+    sys.stderr.write(f"no browser here: the annotated view goes to {saved}\n")
+    return saved, Views("egotouch demo", show=True, save=saved, fps=fps, port=options.port)
+
+
+def _print_scoreboard(board: dict[str, int | float | None]) -> None:
+    onset, force = board["onset_error_ms_median"], board["force_mae_n"]
+    print()
+    print(f"touches in the clip   {board['touches']:>5}")
+    print(f"found                 {board['found']:>5}")
+    print(f"missed                {board['missed']:>5}")
+    print(f"false                 {board['false']:>5}")
+    print(f"onset error, median   {'-' if onset is None else f'{onset:.0f} ms':>8}")
+    print(f"force error, mean     {'-' if force is None else f'{force:.2f} N':>8}")

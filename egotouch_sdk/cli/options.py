@@ -1,0 +1,103 @@
+"""Options that several commands share, and what they build."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from egotouch_sdk.errors import ConfigError
+
+if TYPE_CHECKING:
+    from egotouch_sdk.config import TouchConfig
+    from egotouch_sdk.sources import FrameSource
+
+_CONFIG_HINT = 'Write it like {"hands": {"max_hands": 2}}'
+
+Subparsers = Any  # argparse's own type for it is private
+
+
+def add_command(subparsers: Subparsers, name: str, summary: str, examples: str) -> argparse.ArgumentParser:
+    """A subcommand whose help ends with examples."""
+    parser: argparse.ArgumentParser = subparsers.add_parser(
+        name,
+        help=summary,
+        description=summary[0].upper() + summary[1:] + ".",
+        epilog=f"examples:\n{examples}",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    return parser
+
+
+def add_source_options(parser: argparse.ArgumentParser) -> None:
+    """SOURCE, --fps and --size."""
+    parser.add_argument("source", metavar="SOURCE", help="camera index (0), URL, video file, image, or folder of images")
+    parser.add_argument("--fps", type=positive_float, help="rate of a folder (default 30), in place of a video's own, or asked of a camera")
+    parser.add_argument("--size", type=size_px, metavar="WxH", help="image size to ask of a camera, for example 1280x720")
+
+
+def add_pipeline_options(parser: argparse.ArgumentParser) -> None:
+    """--mirrored, --threads and --config."""
+    parser.add_argument("--mirrored", action="store_true", help="the picture is a mirror image, as from a selfie camera")
+    parser.add_argument("--threads", type=positive_int, metavar="N", help="threads per network (default 1)")
+    parser.add_argument("--config", type=Path, metavar="FILE", help="settings as JSON, with the sections and names of TouchConfig")
+
+
+def positive_int(text: str) -> int:
+    """A whole number above zero, for argparse."""
+    if not text.isdigit() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number above 0")
+    return int(text)
+
+
+def positive_float(text: str) -> float:
+    """A number above zero, for argparse."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = 0.0
+    if not 0.0 < value < float("inf"):
+        raise argparse.ArgumentTypeError(f"{text!r} is not a number above 0")
+    return value
+
+
+def size_px(text: str) -> tuple[int, int]:
+    """`1280x720` as (1280, 720), for argparse."""
+    width, separator, height = text.lower().partition("x")
+    if not separator:
+        raise argparse.ArgumentTypeError(f"{text!r} is not of the form WIDTHxHEIGHT")
+    return positive_int(width), positive_int(height)
+
+
+def open_from(options: argparse.Namespace) -> FrameSource:
+    """The source that the command line names."""
+    from egotouch_sdk.sources import open_source
+
+    width_px, height_px = options.size or (None, None)
+    return open_source(options.source, fps=options.fps, width_px=width_px, height_px=height_px)
+
+
+def config_from(options: argparse.Namespace) -> TouchConfig:
+    """Settings of the config file, with the command line's on top."""
+    from egotouch_sdk.config import TouchConfig
+
+    settings = _read_settings(options.config) if options.config else {}
+    if options.mirrored:
+        settings.setdefault("hands", {})["mirrored"] = True
+    if options.threads:
+        settings.setdefault("hands", {})["threads"] = options.threads
+        settings.setdefault("touch", {})["threads"] = options.threads
+    return TouchConfig(**settings)
+
+
+def _read_settings(path: Path) -> dict[str, Any]:
+    try:
+        settings = json.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise ConfigError(f"cannot read the config file {path} ({error.strerror})", hint="Check the path") from error
+    except ValueError as error:
+        raise ConfigError(f"the config file {path} is not JSON ({error})", hint=_CONFIG_HINT) from error
+    if not isinstance(settings, dict) or not all(isinstance(section, dict) for section in settings.values()):
+        raise ConfigError(f"the config file {path} is not an object of sections", hint=_CONFIG_HINT)
+    return settings

@@ -1,0 +1,82 @@
+"""How events, numbers and progress are printed."""
+
+from __future__ import annotations
+
+import json
+import sys
+from typing import Any
+
+from egotouch_sdk.clock import now_ns
+from egotouch_sdk.touch_event import EventType, TouchEvent
+
+#: Events that come with every frame; they are left out of the lines for people, never out of the JSON.
+CONTINUOUS = frozenset({EventType.MOVE, EventType.HOVER_MOVE})
+_REPORT_EVERY_NS = 500_000_000
+
+
+def print_json(value: Any) -> None:
+    """One JSON object on one line, out at once."""
+    sys.stdout.write(json.dumps(value, separators=(",", ":"), allow_nan=False) + "\n")
+    sys.stdout.flush()
+
+
+def event_line(event: TouchEvent) -> str:
+    """One event for people: time, what, which finger, how sure, how hard, where in the image."""
+    words = f"{event.timestamp_ns / 1e9:9.3f} s  {event.type.value:<11}  {event.hand.value:<5} {event.finger.value:<6}"
+    place = f"p {event.touch_probability:.2f}  at ({event.image_x:.2f}, {event.image_y:.2f})"
+    force = f"  {event.force_n:.1f} N" if event.type is EventType.DOWN else ""
+    reason = f"  {event.reason.value}" if event.reason else ""
+    return f"{words}  {place}{force}{reason}"
+
+
+class Progress:
+    """Frames done, on stderr: one line that is rewritten on a terminal, or a line now and then with `always`."""
+
+    def __init__(self, total: int | None, *, always: bool = False) -> None:
+        self._total = total
+        self._in_place = sys.stderr.isatty()
+        self._on = always or self._in_place
+        self._start_ns = self._last_ns = now_ns()
+        self._done = 0
+        self._wrote = False
+
+    def step(self) -> None:
+        """Count one frame and report if it is time."""
+        self._done += 1
+        now = now_ns()
+        if self._on and now - self._last_ns >= _REPORT_EVERY_NS * (1 if self._in_place else 10):
+            self._last_ns = now
+            self._write(now)
+
+    def clear(self) -> None:
+        """Take the rewritten line off the terminal, to print something else."""
+        if self._wrote and self._in_place:
+            sys.stderr.write("\r\x1b[K")
+            sys.stderr.flush()
+            self._wrote = False
+
+    def _write(self, now: int) -> None:
+        rate = self._done / max((now - self._start_ns) / 1e9, 1e-9)
+        share = f" of {self._total} ({100 * self._done / self._total:.0f} %)" if self._total else ""
+        line = f"{self._done} frames{share}, {rate:.1f} per second"
+        sys.stderr.write(f"\r\x1b[K{line}" if self._in_place else f"{line}\n")
+        sys.stderr.flush()
+        self._wrote = True
+
+
+class EventPrinter:
+    """Prints events as they come, as JSON or as lines for people."""
+
+    def __init__(self, as_json: bool, progress: Progress) -> None:
+        self._as_json = as_json
+        self._progress = progress
+
+    def __call__(self, event: TouchEvent) -> None:
+        """Print one event."""
+        if event.type in CONTINUOUS and not self._as_json:
+            return
+        self._progress.clear()
+        if self._as_json:
+            print_json(event.to_dict())
+        else:
+            print(event_line(event), flush=True)

@@ -1,0 +1,71 @@
+"""`egotouch run`: touch events from any source."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from egotouch_sdk.cli.options import (
+    Subparsers,
+    add_command,
+    add_pipeline_options,
+    add_source_options,
+    config_from,
+    open_from,
+)
+from egotouch_sdk.cli.output import EventPrinter, Progress
+from egotouch_sdk.cli.play import play
+from egotouch_sdk.cli.views import Views
+
+if TYPE_CHECKING:
+    from egotouch_sdk.frame import Frame
+    from egotouch_sdk.frame_result import FrameResult
+
+EXAMPLES = """\
+  egotouch run 0 --show                          the first camera, with a live view in the browser
+  egotouch run clip.mp4                          one line per event
+  egotouch run clip.mp4 --json > events.jsonl    one JSON object per event
+  egotouch run clip.mp4 --save annotated.mp4     a video with hands, touch state and force
+  egotouch run http://192.168.1.7:8080/video     a phone or headset that streams its camera
+"""
+
+
+def add_parser(subparsers: Subparsers) -> None:
+    """Add `run` to the command line."""
+    parser = add_command(subparsers, "run", "touch events from a camera, video or folder of images", EXAMPLES)
+    add_source_options(parser)
+    add_pipeline_options(parser)
+    parser.add_argument("--json", action="store_true", help="one JSON object per event on stdout")
+    parser.add_argument("--show", action="store_true", help="open an annotated live view in the browser")
+    parser.add_argument("--save", type=Path, metavar="FILE.mp4", help="write the annotated view to a video file")
+    parser.add_argument("--port", type=int, default=0, help="port of the live view on 127.0.0.1 (default: a free one)")
+    parser.add_argument("--progress", action="store_true", help="report progress on stderr even when that is not a terminal")
+    parser.set_defaults(run=run)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Play the source and print its events."""
+    from egotouch_sdk.cli.main import EXIT_INTERRUPTED
+    from egotouch_sdk.pipeline import TouchPipeline
+
+    config = config_from(options)
+    with open_from(options) as source:
+        pipeline = TouchPipeline(config)
+        progress = Progress(source.frame_count, always=options.progress)
+        printer = EventPrinter(options.json, progress)
+        with Views(f"egotouch {options.source}"[:26], show=options.show, save=options.save, fps=source.fps, port=options.port) as views:
+            views.show_in_browser()
+
+            def on_frame(frame: Frame, result: FrameResult) -> None:
+                views(frame, result)
+                progress.step()
+
+            outcome = play(source, pipeline, printer, on_frame, paced=options.show and not source.is_live)
+        progress.clear()
+    summary = f"{outcome.frames} frames in {outcome.wall_s:.1f} s ({outcome.fps:.1f} per second)"
+    sys.stderr.write(f"{summary}{', interrupted' if outcome.interrupted else ''}\n")
+    if options.save:
+        sys.stderr.write(f"saved {options.save}\n")
+    return EXIT_INTERRUPTED if outcome.interrupted else 0
