@@ -89,11 +89,9 @@ def bake_identity(seed: int, fitzpatrick: float, level: int = 4) -> SkinIdentity
     """
     traits = draw_traits(seed, fitzpatrick)
     path = identity_path(seed, fitzpatrick, level)
-    if path.is_file():
-        return _load(path, seed, level, traits)
-    identity = SkinIdentity(seed, level, traits, {side: bake_side(HandRig(side, level), seed, traits) for side in Handedness})
-    _store(path, identity)
-    return identity
+    if not path.is_file():
+        _store(path, {side: bake_side(HandRig(side, level), seed, traits) for side in Handedness})
+    return _load(path, seed, level, traits)
 
 
 def bake_side(rig: HandRig, seed: int, traits: SkinTraits) -> BakedSide:
@@ -149,9 +147,9 @@ def _vertex_area_mm2(rig: HandRig) -> float:
     return float(doubled.sum() / 2 * 1e6 / len(rig.vertices))
 
 
-def _store(path: Path, identity: SkinIdentity) -> None:
+def _store(path: Path, sides: Mapping[Handedness, BakedSide]) -> None:
     arrays: dict[str, npt.NDArray[np.generic]] = {}
-    for side, baked in identity.sides.items():
+    for side, baked in sides.items():
         arrays[f"{side}_vertices"] = baked.vertices
         arrays[f"{side}_albedo"] = baked.albedo.astype(np.float16)
         arrays[f"{side}_roughness"] = baked.roughness.astype(np.float16)

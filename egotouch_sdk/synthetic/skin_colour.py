@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from egotouch_sdk.joints import FINGERS
 from egotouch_sdk.synthetic.linalg import Array, smoothstep
 from egotouch_sdk.synthetic.nails import NailMasks
 from egotouch_sdk.synthetic.skin_side import Relief, SkinSide
@@ -36,8 +37,8 @@ def paint(side: SkinSide, traits: SkinTraits, relief: Relief, nails: NailMasks, 
 
     melanin = traits.mottle * (0.07 * side.noise(0.03, 410) + 0.03 * side.noise(0.006, 411) + 0.02 * side.noise(0.0022, 412))
     melanin += 0.12 * (1 - palm) * knuckles + pigment
-    blood = traits.redness * traits.mottle * (0.08 * side.noise(0.014, 413) + 0.05 * side.noise(0.0045, 414) + 0.02 * side.noise(0.0018, 415))
-    blood += 0.35 * traits.redness * (0.8 * nails.pulp + 0.6 * knuckles) + 0.25 * traits.redness * palm
+    blood = traits.mottle * (0.08 * side.noise(0.014, 413) + 0.05 * side.noise(0.0045, 414) + 0.02 * side.noise(0.0018, 415))
+    blood = traits.redness * blood + 0.35 * traits.redness * (0.8 * nails.pulp + 0.6 * knuckles) + 0.25 * traits.redness * palm
 
     back = np.array(traits.tone) * [1.0, 0.99, 0.95]
     skin = back * (1 - palm[:, None]) + palm_tone(traits) * palm[:, None]
@@ -54,11 +55,12 @@ def paint(side: SkinSide, traits: SkinTraits, relief: Relief, nails: NailMasks, 
 def _knuckles(side: SkinSide) -> Array:
     """Mask (n,) of the skin over the finger joints' backs."""
     mask = np.zeros(len(side.points))
-    for finger in ("thumb", "index", "middle", "ring", "pinky"):
+    for finger in FINGERS:
         for joint in side.rig.finger_joint_ids(finger)[1:-1]:
             ids = np.flatnonzero(((side.rig.vertices - side.rig.bind[joint, :3, 3]) ** 2).sum(axis=1) < 0.022**2)
             points, normals = side.in_bone(joint, ids)
-            mask[ids] = np.maximum(mask[ids], np.exp(-((points[:, 2] / 0.008) ** 2) - (points[:, 0] / 0.012) ** 4) * smoothstep(0.0, 0.5, normals[:, 1]))
+            blob = np.exp(-((points[:, 2] / 0.008) ** 2) - (points[:, 0] / 0.012) ** 4)
+            mask[ids] = np.maximum(mask[ids], blob * smoothstep(0.0, 0.5, normals[:, 1]))
     return mask
 
 
