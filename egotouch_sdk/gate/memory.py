@@ -6,7 +6,6 @@ from dataclasses import replace
 
 from egotouch_sdk.observation import GateResult, HandObservation
 
-
 #: Hands below this score were not seen but carried on (the tracker's presence threshold).
 SEEN_SCORE = 0.5
 

@@ -1,0 +1,1 @@
+"""Builders and verbs shared by the tests."""
