@@ -82,7 +82,12 @@ class HandRig:
             transforms[joint] = transforms[parent] @ local
         return transforms
 
-    def skin(self, transforms: FloatArray, vertices: FloatArray | None = None, vertex_ids: IntArray | None = None) -> FloatArray:
+    def skin(
+        self,
+        transforms: FloatArray,
+        vertices: FloatArray | npt.NDArray[np.float32] | None = None,
+        vertex_ids: IntArray | None = None,
+    ) -> FloatArray:
         """Vertices carried by a pose, by linear-blend skinning: (k, 3) in metres.
 
         `transforms` (26, 4, 4) from `pose`; `vertices` (n, 3) rest positions of the whole mesh (default: the plain mesh; an

@@ -51,7 +51,7 @@ class SkinIdentity:
     seed: int
     level: int
     traits: SkinTraits
-    sides: Mapping[Handedness, BakedSide]
+    sides: Mapping[str, BakedSide]
 
     @property
     def scale(self) -> float:
@@ -147,7 +147,7 @@ def _vertex_area_mm2(rig: HandRig) -> float:
     return float(doubled.sum() / 2 * 1e6 / len(rig.vertices))
 
 
-def _store(path: Path, sides: Mapping[Handedness, BakedSide]) -> None:
+def _store(path: Path, sides: Mapping[str, BakedSide]) -> None:
     arrays: dict[str, npt.NDArray[np.generic]] = {}
     for side, baked in sides.items():
         arrays[f"{side}_vertices"] = baked.vertices
@@ -162,7 +162,7 @@ def _store(path: Path, sides: Mapping[Handedness, BakedSide]) -> None:
 
 def _load(path: Path, seed: int, level: int, traits: SkinTraits) -> SkinIdentity:
     with np.load(path) as stored:
-        sides = {
+        sides: dict[str, BakedSide] = {
             side: BakedSide(
                 vertices=stored[f"{side}_vertices"],
                 albedo=stored[f"{side}_albedo"].astype(np.float32),
