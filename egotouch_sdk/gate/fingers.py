@@ -29,9 +29,10 @@ def active_fingers(hand: HandObservation, config: GateConfig, already: Collectio
 
 
 def points_away(points: Points, finger: Finger) -> bool:
-    """True when the tip is farther from the wrist than the finger's second joint (PIP; thumb: MCP)."""
+    """True when the tip is farther from the wrist than the finger's knuckle (MCP), as in every press and no fist."""
     wrist = points[HandJoint.WRIST]
-    return dist(points[finger.tip], wrist) > dist(points[finger.chain[1]], wrist)
+    knuckle = finger.chain[1] if finger is Finger.THUMB else finger.chain[0]
+    return dist(points[finger.tip], wrist) > dist(points[knuckle], wrist)
 
 
 def extension(points: Points, finger: Finger) -> float:
