@@ -12,7 +12,7 @@ from importlib.util import find_spec
 from typing import NoReturn, TextIO
 
 from egotouch_sdk import __version__
-from egotouch_sdk.errors import EgoTouchError
+from egotouch_sdk.errors import EgoTouchError, MissingExtraError
 
 #: Exit codes: argparse itself uses 2 for a wrong command line; 130 is 128 + SIGINT as in every shell.
 EXIT_ERROR = 1
@@ -30,6 +30,12 @@ COMMANDS = (
     "egotouch_sdk.synthetic.cli",
     "egotouch_sdk.training.cli",
 )
+
+#: Import names of optional packages, by the extra that brings them.
+EXTRA_PACKAGES = {
+    "synthetic": ("drjit", "mitsuba", "pygltflib", "scipy", "trimesh"),
+    "train": ("lightning", "onnx", "onnxscript", "sklearn", "torch"),
+}
 
 EXAMPLES = """\
 examples:
@@ -72,6 +78,16 @@ def _show_warning(
     sys.stderr.write(f"egotouch: warning: {message}\n")
 
 
+def _explained(error: ModuleNotFoundError | OSError) -> str:
+    """A missing optional package or a file that cannot be used, in one line with the next step; anything else is a defect."""
+    if isinstance(error, OSError):
+        return f"{error.strerror or error}{f': {error.filename}' if error.filename else ''}"
+    for extra, packages in EXTRA_PACKAGES.items():
+        if error.name and error.name.partition(".")[0] in packages:
+            return str(MissingExtraError(f"this command ({error.name})", extra))
+    raise error
+
+
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command and return its exit code; every `EgoTouchError` becomes one line on stderr."""
     options = build_parser().parse_args(arguments)
@@ -81,6 +97,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
             return int(options.run(options))
         except EgoTouchError as error:
             sys.stderr.write(f"egotouch: error: {error}\n")
+            return EXIT_ERROR
+        except BrokenPipeError:
+            raise
+        except (ModuleNotFoundError, OSError) as error:
+            sys.stderr.write(f"egotouch: error: {_explained(error)}\n")
             return EXIT_ERROR
         except KeyboardInterrupt:
             sys.stderr.write("egotouch: interrupted\n")

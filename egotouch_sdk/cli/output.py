@@ -11,7 +11,8 @@ from egotouch_sdk.touch_event import EventType, TouchEvent
 
 #: Events that come with every frame; they are left out of the lines for people, never out of the JSON.
 CONTINUOUS = frozenset({EventType.MOVE, EventType.HOVER_MOVE})
-_REPORT_EVERY_NS = 500_000_000
+#: On a terminal one line is rewritten often; elsewhere every report is a line of its own.
+_REPORT_EVERY_NS = {True: 250_000_000, False: 1_000_000_000}
 
 
 def print_json(value: Any) -> None:
@@ -44,7 +45,7 @@ class Progress:
         """Count one frame and report if it is time."""
         self._done += 1
         now = now_ns()
-        if self._on and now - self._last_ns >= _REPORT_EVERY_NS * (1 if self._in_place else 10):
+        if self._on and now - self._last_ns >= _REPORT_EVERY_NS[self._in_place]:
             self._last_ns = now
             self._write(now)
 

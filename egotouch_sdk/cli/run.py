@@ -30,6 +30,8 @@ EXAMPLES = """\
   egotouch run clip.mp4 --save annotated.mp4     a video with hands, touch state and force
   egotouch run http://192.168.1.7:8080/video     a phone or headset that streams its camera
 """
+#: What fits into the view's headline.
+TITLE_CHARACTERS = 20
 
 
 def add_parser(subparsers: Subparsers) -> None:
@@ -55,7 +57,8 @@ def run(options: argparse.Namespace) -> int:
         pipeline = TouchPipeline(config)
         progress = Progress(source.frame_count, always=options.progress)
         printer = EventPrinter(options.json, progress)
-        with Views(f"egotouch {options.source}"[:26], show=options.show, save=options.save, fps=source.fps, port=options.port) as views:
+        title = f"egotouch {Path(options.source).name}"[:TITLE_CHARACTERS]
+        with Views(title, show=options.show, save=options.save, fps=source.fps, port=options.port) as views:
             views.show_in_browser()
 
             def on_frame(frame: Frame, result: FrameResult) -> None:

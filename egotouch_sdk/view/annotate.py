@@ -31,6 +31,7 @@ class Annotator:
     def __init__(self, title: str = "egotouch") -> None:
         self.timeline = Timeline()
         self._title = title
+        self._background = blank(WIDTH_PX, HEIGHT_PX)
         self._plot = ForcePlot(0, VIDEO_HEIGHT_PX, VIDEO_WIDTH_PX, HEIGHT_PX - VIDEO_HEIGHT_PX)
 
     def add(self, result: FrameResult) -> None:
@@ -39,7 +40,7 @@ class Annotator:
 
     def draw(self, frame: Frame, result: FrameResult) -> Image:
         """The picture of the frame that was added last."""
-        canvas = blank(WIDTH_PX, HEIGHT_PX)
+        canvas = self._background.copy()
         self._draw_video(canvas, frame, result)
         self._plot.draw(canvas, self.timeline)
         self._draw_panel(canvas, result)

@@ -9,7 +9,7 @@ import numpy as np
 
 from egotouch_sdk.joints import FINGERS, HandJoint
 from egotouch_sdk.observation import FORCE_MAX_N, FloatArray, GateResult, HandObservation
-from egotouch_sdk.view.palette import BACKGROUND, HOST_HAND, OTHER_HAND, STATE_COLOUR, TOUCHING_HAND, Colour, Image, put_text
+from egotouch_sdk.view.palette import BACKGROUND, HOST_HAND, OTHER_HAND, STATE_COLOUR, TOUCHING_HAND, Colour, Image, put_label
 from egotouch_sdk.view.timeline import TipState
 
 #: The hand's bones as pairs of joints: each finger's chain, and the palm's outline (MediaPipe's `HAND_CONNECTIONS`).
@@ -64,9 +64,8 @@ def draw_hand(canvas: Image, hand: HandObservation, placement: Placement, colour
     for point in points:
         _disc(canvas, point, 4.0, BACKGROUND)
         _disc(canvas, point, 2.5, colour)
-    x, y = points[HandJoint.WRIST].astype(int)
-    put_text(canvas, hand.handedness.value, (int(x) + 9, int(y) + 17), 0.5, BACKGROUND, bold=True)
-    put_text(canvas, hand.handedness.value, (int(x) + 8, int(y) + 16), 0.5, colour)
+    x, y = _fixed(points[HandJoint.WRIST] / (1 << _SUBPIXEL_BITS))
+    put_label(canvas, hand.handedness.value, (x + 8, y + 18), BACKGROUND, colour)
 
 
 def draw_tip(canvas: Image, xy: FloatArray, state: TipState, force_n: float) -> None:

@@ -38,6 +38,13 @@ def put_text(canvas: Image, text: str, at: tuple[int, int], size: float = 0.5, c
     cv2.putText(canvas, plain, at, cv2.FONT_HERSHEY_SIMPLEX, size, colour, 2 if bold else 1, cv2.LINE_AA)
 
 
+def put_label(canvas: Image, text: str, at: tuple[int, int], colour: Colour, fill: Colour) -> None:
+    """Write `text` on a small filled tag with its baseline's left end at `at`."""
+    (width, height), base = cv2.getTextSize(text, cv2.FONT_HERSHEY_SIMPLEX, 0.45, 1)
+    cv2.rectangle(canvas, (at[0] - 4, at[1] - height - 4), (at[0] + width + 4, at[1] + base), fill, -1)
+    put_text(canvas, text, at, 0.45, colour)
+
+
 def put_text_right(canvas: Image, text: str, at: tuple[int, int], size: float = 0.5, colour: Colour = TEXT, bold: bool = False) -> None:
     """Write `text` with its baseline's right end at `at`."""
     (width, _), _ = cv2.getTextSize(text, cv2.FONT_HERSHEY_SIMPLEX, size, 2 if bold else 1)

@@ -15,7 +15,7 @@ from egotouch_sdk.touch_event import EventType, TouchEvent
 Tip = tuple[Handedness, Finger]
 
 #: Event lines that are kept for the ticker.
-TICKER_LINES = 9
+TICKER_LINES = 15
 
 
 class TipState(StrEnum):
