@@ -8,7 +8,7 @@ from functools import lru_cache
 import numpy as np
 import numpy.typing as npt
 
-from egotouch_sdk.joints import FINGERS, WEBXR_INDEX, Finger, Handedness
+from egotouch_sdk.joints import FINGERS, WEBXR_INDEX, Finger, HandJoint, Handedness
 from egotouch_sdk.synthetic.mesh import FloatArray, IntArray, mixed_resolution
 from egotouch_sdk.synthetic.rig_build import JOINT_COUNT, JOINT_NAMES, RigArrays, load_rig_arrays
 
@@ -20,6 +20,12 @@ PARENTS: tuple[int, ...] = (
 #: MediaPipe's tip landmark lies at this share of the way from DIP to the mesh's end (fitted on 48 rendered frames
 #: against MediaPipe Hands 0.10.21: 1.9 mm median error, against 4.8 mm for the asset's own tip joint).
 TIP_SHARE = 0.74
+#: How far MediaPipe's wrist and four finger MCPs lie from the asset's joints towards the fingers, in metres. Measured with
+#: this SDK's hand tracker on 24 renders (6 skins, both sides of both hands, open poses at 0.45 m): medians 16.1 mm (the
+#: wrist; 11 mm seen from the palm, 19 mm from the back) and 6.7-8.0 mm; all other joints stayed within 3 mm.
+WRIST_SHIFT_M = 0.016
+MCP_SHIFT_M = 0.007
+_MCPS = tuple(finger.chain[0] for finger in FINGERS[1:])
 
 
 class HandRig:
@@ -104,10 +110,12 @@ class HandRig:
     def mediapipe_joints(self, transforms: FloatArray) -> FloatArray:
         """The 21 landmarks (21, 3) in metres, in MediaPipe's order, for a pose.
 
-        WebXR joints, except the tips: DIP + 0.74 (mesh end - DIP), see `TIP_SHARE`. MediaPipe's wrist and MCPs differ
-        from WebXR's by a constant offset per asset (20 mm and 5-9 mm measured); those stay at the anatomical joint.
+        The asset's joints, except where MediaPipe's definition differs: tips (`TIP_SHARE`), wrist and MCPs (`WRIST_SHIFT_M`).
         """
         landmarks = transforms[list(WEBXR_INDEX), :3, 3].copy()
+        towards_fingers = -transforms[0, :3, 2]
+        landmarks[HandJoint.WRIST] += WRIST_SHIFT_M * towards_fingers
+        landmarks[list(_MCPS)] += MCP_SHIFT_M * towards_fingers
         for finger, reach_m in self._finger_reach.items():
             dip, tip = transforms[WEBXR_INDEX[finger.dip], :3, 3], transforms[WEBXR_INDEX[finger.tip], :3, 3]
             landmarks[finger.tip] = dip + TIP_SHARE * reach_m * (tip - dip) / np.linalg.norm(tip - dip)

@@ -101,7 +101,11 @@ def test_landmarks_follow_the_finger(rig: HandRig) -> None:
     transforms = rig.pose(BENT)
     landmarks = rig.mediapipe_joints(transforms)
     assert landmarks.shape == (21, 3)
-    np.testing.assert_allclose(landmarks[HandJoint.WRIST], transforms[0, :3, 3])
+    palm = np.linalg.norm(landmarks[HandJoint.MIDDLE_FINGER_MCP] - landmarks[HandJoint.WRIST])
+    assert 0.075 < palm < 0.090
+    np.testing.assert_allclose(
+        landmarks[HandJoint.INDEX_FINGER_PIP], transforms[JOINT_NAMES.index("index-finger-phalanx-intermediate"), :3, 3]
+    )
     for finger in FINGERS:
         length = np.linalg.norm(landmarks[finger.tip] - landmarks[finger.dip])
         own = rig.skin(transforms)[rig.finger_weight(finger) > 0.5]
