@@ -8,6 +8,8 @@ import math
 FALLBACK_FPS = 30.0
 #: A rate above this is metadata nonsense (our choice; fast industrial cameras stay below).
 MAX_FPS = 1000.0
+#: Two frames of one file never lie further apart; a larger step is a damaged time (our choice: an hour).
+MAX_GAP_NS = 3600 * 10**9
 
 
 def sound_fps(announced: float) -> float | None:
@@ -18,7 +20,7 @@ def sound_fps(announced: float) -> float | None:
 class PresentationTimes:
     """Turns each frame's presentation time into integer nanoseconds with the first frame at 0.
 
-    A time that is not finite or does not rise is replaced by the last one plus one frame, so the result always rises.
+    A time that is not finite, does not rise or leaps by more than an hour is replaced by the last one plus one frame, so the result always rises.
     With `constant_fps` the file's times are ignored.
     """
 
@@ -44,8 +46,8 @@ class PresentationTimes:
         if self._count == 0:
             self._first_ms = time_ms if math.isfinite(time_ms) else 0.0
             return 0
-        stated_ns = round((time_ms - (self._first_ms or 0.0)) * 1e6) if math.isfinite(time_ms) else -1
-        if stated_ns > self._last_ns:
-            return stated_ns
+        since_last_ns = (time_ms - (self._first_ms or 0.0)) * 1e6 - self._last_ns
+        if 1.0 <= since_last_ns <= MAX_GAP_NS:
+            return self._last_ns + round(since_last_ns)
         self.repaired += 1
         return self._last_ns + self._step_ns
