@@ -41,3 +41,12 @@ def draw_texture(rng: np.random.Generator) -> npt.NDArray[np.float32]:
 def draw_backdrop(rng: np.random.Generator, contact: Array, view: Array, up: Array) -> Backdrop:
     """A random plane 8 to 50 cm behind the contact point, roughly facing the camera."""
     return Backdrop(contact - view * rng.uniform(0.08, 0.5), unit(view + rng.normal(0, 0.25, 3)), up, draw_texture(rng))
+
+
+def calm_texture(rng: np.random.Generator, srgb: tuple[int, int, int]) -> npt.NDArray[np.float32]:
+    """A quiet table top of one colour (linear albedo, 256 x 256): grain along one axis and slow variation, for clips."""
+    y, x = np.mgrid[0:_SIZE, 0:_SIZE] / _SIZE
+    slow = sum(cv2.resize(rng.standard_normal((2**k, 2**k)), (_SIZE, _SIZE), interpolation=cv2.INTER_CUBIC) / 1.6**k for k in range(2, 6))
+    grain = cv2.GaussianBlur(rng.standard_normal((_SIZE, _SIZE)), (0, 0), sigmaX=14, sigmaY=0.8) * 5
+    pattern = 1 + 0.06 * slow + 0.08 * grain + 0.05 * np.sin(2 * np.pi * (18 * y + 0.4 * slow + 0 * x))
+    return np.clip(linear(np.array(srgb)) * np.clip(pattern, 0.3, 2)[..., None], 0.004, 0.95).astype(np.float32)

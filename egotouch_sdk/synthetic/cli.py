@@ -10,6 +10,7 @@ from typing import Any
 
 _EXAMPLES = """examples:
   egotouch synth patches --out data/patches --series 1000   # 8,000 labelled patches; stop and restart as you like
+  egotouch synth demo --scratch data/demo --out data        # the clip that `egotouch demo` plays
   egotouch synth sheet data/patches sheet.png               # look at some of them
 """
 
@@ -22,10 +23,15 @@ def add_parser(subparsers: Any) -> None:
     patches.add_argument("--out", type=Path, required=True, help="folder for the shards")
     patches.add_argument("--series", type=int, default=1000, help="scenes of 8 patches each (default 1000)")
     patches.add_argument("--participants", type=int, default=24, help="different skins (default 24)")
-    patches.add_argument("--samples", type=int, default=16, help="light paths per pixel (default 16)")
+    patches.add_argument("--samples", type=int, default=12, help="light paths per pixel (default 12)")
     patches.add_argument("--seed", type=int, default=0)
     patches.add_argument("--workers", type=int, default=os.cpu_count() or 1, help="processes (default: all cores)")
     patches.set_defaults(run=_patches)
+    demo = commands.add_parser("demo", help="render the demo clip and its ground truth (resumable, about 20 minutes on 2 cores)")
+    demo.add_argument("--scratch", type=Path, required=True, help="folder for rendered frames (about 1 GB)")
+    demo.add_argument("--out", type=Path, required=True, help="folder for demo.mp4 and demo_truth.json")
+    demo.add_argument("--workers", type=int, default=os.cpu_count() or 1, help="processes (default: all cores)")
+    demo.set_defaults(run=_demo)
     sheet = commands.add_parser("sheet", help="contact sheet of a folder of patches")
     sheet.add_argument("folder", type=Path)
     sheet.add_argument("picture", type=Path)
@@ -40,6 +46,16 @@ def _patches(args: argparse.Namespace) -> int:
     job = PatchJob(args.seed, args.series, args.participants, args.samples)
     made = run(job, args.out, args.workers, lambda line: print(line, file=sys.stderr, flush=True))
     print(f"{made} new patches in {args.out}")
+    return 0
+
+
+def _demo(args: argparse.Namespace) -> int:
+    from egotouch_sdk.synthetic.clip import assemble_demo, render_demo
+
+    render_demo(args.scratch, args.workers, lambda line: print(line, file=sys.stderr, flush=True))
+    args.out.mkdir(parents=True, exist_ok=True)
+    frames = assemble_demo(args.scratch, args.out / "demo.mp4", args.out / "demo_truth.json")
+    print(f"{frames} frames in {args.out / 'demo.mp4'}")
     return 0
 
 

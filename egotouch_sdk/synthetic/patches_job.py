@@ -64,7 +64,6 @@ def render_shard(job: PatchJob, shard: int, out: Path) -> int:
 
 def _start_worker() -> None:
     os.environ["OPENBLAS_NUM_THREADS"] = os.environ["OMP_NUM_THREADS"] = "1"
-    os.nice(5)
 
 
 def run(job: PatchJob, out: Path, workers: int, report: Callable[[str], None]) -> int:

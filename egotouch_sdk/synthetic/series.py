@@ -60,9 +60,9 @@ def draw_depths(rng: np.random.Generator) -> list[dict[str, float]]:
 
 def _cameras(rng: np.random.Generator, stage: Stage) -> list[tuple[Array, float]]:
     """Direction (3,) from the contact and distance (m) of each view; the first is the plan's own."""
-    chosen = [(stage.view, stage.plan.distance_m)]
+    chosen = [(stage.aim.view, stage.plan.distance_m)]
     for _ in range(_CAMERA_DRAWS):
-        direction, distance = unit(stage.view + rng.normal(0, 0.25, 3)), float(rng.uniform(0.26, 0.5))
+        direction, distance = unit(stage.aim.view + rng.normal(0, 0.25, 3)), float(rng.uniform(0.26, 0.5))
         if direction @ stage.normal > _LEAST_FACING and not stage.hidden_from(stage.contact + direction * distance):
             chosen.append((direction, distance))
         if len(chosen) == _VIEWS:
@@ -96,8 +96,8 @@ def _labels(touch: Touch, stage: Stage, camera: Camera) -> dict[str, Any]:
 def render_series(rng: np.random.Generator, host: HandRig, touching: HandRig, identity: SkinIdentity, samples: int, seed: int) -> list[LabelledLayers]:
     """Eight labelled patches of one new scene: 4 depths x 2 views; raises `Impossible` when none can be drawn."""
     stage = draw_stage(rng, host, touching, identity)
-    lights = draw_lights(rng, stage.normal, stage.up, stage.view)
-    backdrop = draw_backdrop(rng, stage.contact, stage.view, stage.up)
+    lights = draw_lights(rng, stage.normal, stage.aim.up, stage.aim.view)
+    backdrop = draw_backdrop(rng, stage.contact, stage.aim.view, stage.aim.up)
     directions = _cameras(rng, stage)
     patches = []
     for depth in draw_depths(rng):

@@ -49,14 +49,25 @@ class Touch:
     dent_mm: float
 
 
+@dataclass(frozen=True, slots=True)
+class Aim:
+    """How the scene is looked at: unit vectors towards the camera, to the image's right and up, and the finger's reference normal."""
+
+    view: Array
+    right: Array
+    up: Array
+    normal: Array
+
+
 class Stage:
     """A scene plan made flesh.
 
     `detail` False poses coarse meshes, enough to find out whether the scene is possible (raises `Impossible`).
+    `aim` fixes the camera and the finger's direction from outside, for clips; the scene is then taken as possible.
     All in the receiving hand's own space, metres; `normal` is the skin's at the contact, `contact` the point.
     """
 
-    def __init__(self, plan: ScenePlan, host: HandRig, touching: HandRig, identity: SkinIdentity, detail: bool) -> None:
+    def __init__(self, plan: ScenePlan, host: HandRig, touching: HandRig, identity: SkinIdentity, detail: bool, aim: Aim | None = None) -> None:
         self.plan, self._host, self._touching, self._identity = plan, host, touching, identity
         joints = touching.finger_joint_ids(plan.finger)
         self._dip, self._tip = joints[-2], joints[-1]
@@ -70,11 +81,12 @@ class Stage:
         else:
             self._host_ids, self._host_faces = np.arange(host.vertex_count_at[COARSE_LEVEL]), host.faces_at[COARSE_LEVEL]
             self._touch_ids, self._touch_faces = np.arange(touching.vertex_count_at[COARSE_LEVEL]), touching.faces_at[COARSE_LEVEL]
-        self._pose()
+        self._pose(aim)
         self._rest_on_skin()
-        self._check()
+        if aim is None:
+            self._check()
 
-    def _pose(self) -> None:
+    def _pose(self, aim: Aim | None) -> None:
         plan, scale = self.plan, self._identity.scale
         host_skin, touch_skin = self._identity.sides["left"], self._identity.sides["right"]
         g = self._host.pose(plan.host_pose)
@@ -87,7 +99,7 @@ class Stage:
         around = ((self._host_v - self.contact) ** 2).sum(1) < 0.012**2
         same_side = self._host_n[around] @ self._host_n[site] > 0
         self.normal = unit(self._host_n[around][same_side].mean(0))
-        self._aim_camera(g, scale)
+        self.aim = aim or self._draw_aim(g)
         g = self._touching.pose(plan.touching_pose)
         vertices = self._touching.skin(g, touch_skin.vertices, self._touch_ids) * scale
         landmarks = self._touching.mediapipe_joints(g) * scale
@@ -101,22 +113,22 @@ class Stage:
         self._along_distal = along
         self._pad = np.flatnonzero((self._touching.finger_weight(plan.finger)[self._touch_ids] > 0.6) & (along < 0.006))
 
-    def _aim_camera(self, g: Array, scale: float) -> None:
+    def _draw_aim(self, g: Array) -> Aim:
         plan, n = self.plan, self.normal
         a = unit(np.cross(n, [0.3, 0.5, 0.8]))
         b = np.cross(n, a)
         tilt, azimuth = plan.view_tilt_rad, plan.view_azimuth_rad
-        self.view = np.cos(tilt) * n + np.sin(tilt) * (np.cos(azimuth) * a + np.sin(azimuth) * b)
+        view = np.cos(tilt) * n + np.sin(tilt) * (np.cos(azimuth) * a + np.sin(azimuth) * b)
         arm = -g[0, :3, 2] if plan.place in ("palm", "back_of_hand") else unit(g[0, :3, 3] - g[25, :3, 3] - g[25, :3, 2] * 0.2)
-        along = reject_from(arm, self.view)
-        self.right = np.cos(plan.arm_azimuth_rad) * along - np.sin(plan.arm_azimuth_rad) * np.cross(self.view, along)
-        self.up = np.cross(self.view, self.right)
+        along = reject_from(arm, view)
+        right = np.cos(plan.arm_azimuth_rad) * along - np.sin(plan.arm_azimuth_rad) * np.cross(view, along)
+        return Aim(view, right, np.cross(view, right), n)
 
     def _finger_rotation(self, g: Array) -> Array:
-        plan, n = self.plan, self.normal
-        heading = reject_from(np.cos(plan.heading_rad) * self.right + np.sin(plan.heading_rad) * self.up, n)
+        plan, n = self.plan, self.aim.normal
+        heading = reject_from(np.cos(plan.heading_rad) * self.aim.right + np.sin(plan.heading_rad) * self.aim.up, n)
         self.finger_axis = np.cos(plan.pitch_rad) * heading - np.sin(plan.pitch_rad) * n
-        self._heading = heading
+        self._heading = reject_from(heading, self.normal)
         dorsal = reject_from(n, self.finger_axis)
         across = np.cross(dorsal, -self.finger_axis)
         self.nail_normal = np.cos(plan.roll_rad) * dorsal + np.sin(plan.roll_rad) * across
@@ -152,9 +164,9 @@ class Stage:
         return bool(blocks.any() or ((depth > 0) & (depth < 0.10)).any())
 
     def _check(self) -> None:
-        if self.hidden_from(self.contact + self.view * self.plan.distance_m):
+        if self.hidden_from(self.contact + self.aim.view * self.plan.distance_m):
             raise Impossible("fingertip hidden")
-        if self.nail_normal @ self.view < 0.15:
+        if self.nail_normal @ self.aim.view < 0.15:
             raise Impossible("nail faces away")
         others = np.setdiff1d(np.arange(0, len(self._touch_v), 9), self._pad)
         distance, nearest = cKDTree(self._host_v[::3]).query(self._touch_v[others])

@@ -1,0 +1,174 @@
+"""The training-time camera: rendered light layers and albedo in, a patch as a real camera would give it out.
+
+A render stores the light of separate lamps and the skin's albedo; mixing, colouring, exposing and blurring them here gives many
+pictures of one render. Order of steps as in a camera: light, skin, framing, motion, optics, sensor, tone, JPEG, upscaling.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import ceil, cos, hypot, sin
+
+import cv2
+import numpy as np
+import numpy.typing as npt
+
+from egotouch_sdk.errors import FrameError
+from egotouch_sdk.observation import PATCH_PX
+from egotouch_sdk.synthetic.camera_settings import CameraSettings, draw_settings
+
+FloatImage = npt.NDArray[np.float32]
+
+BACKGROUND, HOST, TOUCHING_HAND = 0, 1, 2
+#: Luma weights (ITU-R BT.709), linear RGB.
+LUMA = np.array([0.2126, 0.7152, 0.0722], np.float32)
+_LEVELS = np.arange(256, dtype=np.float64) / 255
+#: Linear value of each sRGB code (IEC 61966-2-1).
+SRGB_TO_LINEAR = np.where(_LEVELS <= 0.04045, _LEVELS / 12.92, ((_LEVELS + 0.055) / 1.055) ** 2.4).astype(np.float32)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class LightLayers:
+    """One rendered fingertip before the camera, at 2.5 px per mm with the tip at the centre and the finger up.
+
+    `light` (S, S, 3) float: linear irradiance of the key, window and ambient lights, 1 = white diffuse in the open.
+    `albedo` (S, S, 3) uint8: sRGB-encoded RGB. `segment` (S, S) uint8: 0 background, 1 host limb, 2 touching hand.
+    S is at least 100, more leaves room for shifts. Raises `FrameError` for shapes or types that do not fit.
+    """
+
+    light: npt.NDArray[np.floating]
+    albedo: npt.NDArray[np.uint8]
+    segment: npt.NDArray[np.uint8]
+
+    def __post_init__(self) -> None:
+        side = self.segment.shape[0]
+        shapes = (self.light.shape, self.albedo.shape, self.segment.shape)
+        if shapes != ((side, side, 3), (side, side, 3), (side, side)) or side < PATCH_PX:
+            raise FrameError(f"light, albedo and segment have shapes {shapes}; need squares of {PATCH_PX} px or more")
+        if self.albedo.dtype != np.uint8 or self.segment.dtype != np.uint8:
+            raise FrameError(f"albedo is {self.albedo.dtype} and segment {self.segment.dtype}, need uint8")
+
+
+def photograph_randomly(layers: LightLayers, rng: np.random.Generator) -> npt.NDArray[np.uint8]:
+    """A patch, uint8 (100, 100, 3) RGB, through one random camera; the same generator state gives the same patch."""
+    return photograph(layers, draw_settings(rng), rng)
+
+
+def photograph(layers: LightLayers, settings: CameraSettings, rng: np.random.Generator) -> npt.NDArray[np.uint8]:
+    """A patch, uint8 (100, 100, 3) RGB, through the given camera; `rng` draws the sensor's noise."""
+    to_layers = _framing(layers.segment.shape[0], settings)
+    light = _warp(np.asarray(layers.light, np.float32), to_layers)
+    albedo = _warp(SRGB_TO_LINEAR[layers.albedo], to_layers)
+    segment = np.asarray(_warp(layers.segment, to_layers, cv2.INTER_NEAREST), np.uint8)
+    image = _skin(albedo, segment, settings) * _illuminate(light, segment, settings)
+    if settings.distractor is not None:
+        image = _add_distractor(image, segment, settings.distractor)
+    image = _blur_moving_finger(image, segment, settings.finger_motion_px)
+    image = _optics(image, settings)
+    image = _expose(image, segment, settings)
+    return _develop(image, settings, rng)
+
+
+def _framing(side_px: int, settings: CameraSettings) -> npt.NDArray[np.float64]:
+    """Affine map (2, 3) from patch pixels to layer pixels with the tracker's shift, turn and scale error."""
+    step = 1 / settings.scale
+    c, s = cos(settings.turn_rad) * step, sin(settings.turn_rad) * step
+    centre, middle = (side_px - 1) / 2, (PATCH_PX - 1) / 2
+    dx, dy = middle + settings.shift_px[0], middle + settings.shift_px[1]
+    return np.array([[c, -s, centre - c * dx + s * dy], [s, c, centre - s * dx - c * dy]])
+
+
+def _warp(image: npt.NDArray[np.floating] | npt.NDArray[np.uint8], to_image: npt.NDArray[np.float64], interpolation: int = cv2.INTER_LINEAR) -> FloatImage:
+    size = (PATCH_PX, PATCH_PX)
+    flags = interpolation | cv2.WARP_INVERSE_MAP
+    return np.asarray(cv2.warpAffine(image, to_image, size, flags=flags, borderMode=cv2.BORDER_REPLICATE), np.float32)
+
+
+def _illuminate(light: FloatImage, segment: npt.NDArray[np.uint8], settings: CameraSettings) -> FloatImage:
+    """Coloured irradiance, redder where little light arrives: it got there over skin (interreflection)."""
+    mixed = np.maximum(light @ settings.light_gains, 1e-4)
+    luma = mixed @ LUMA
+    skin = luma[segment != BACKGROUND]
+    open_level = float(np.percentile(skin[::7], 90)) if skin.size > 50 else float(luma.max())
+    scarcity = np.clip(luma / max(open_level, 1e-3), 0.03, 1.0)
+    log_scarcity = np.log(scarcity)[..., None]
+    return np.asarray(mixed * np.exp(log_scarcity * settings.crevice_tint), np.float32)
+
+
+def _skin(albedo: FloatImage, segment: npt.NDArray[np.uint8], settings: CameraSettings) -> FloatImage:
+    toned = cv2.pow(albedo, settings.tone_power)
+    gains = settings.tone_gains[segment]
+    return np.asarray(np.clip(toned * gains, 0.0, 1.0), np.float32)
+
+
+def _add_distractor(image: FloatImage, segment: npt.NDArray[np.uint8], distractor: tuple[float, float, float, float, float]) -> FloatImage:
+    """Draw a rounded tab at the finger's edge in the given row: a sensor, a plaster, a bit of cloth."""
+    row, side, width, height, level = distractor
+    columns = np.flatnonzero(segment[int(row)] == TOUCHING_HAND)
+    if not columns.size:
+        return image
+    edge = int(columns[0] if side < 0 else columns[-1])
+    tab = np.zeros(segment.shape, np.float32)
+    cv2.ellipse(tab, (int(edge + side * width / 3), int(row)), (ceil(width / 2), ceil(height / 2)), 0, 0, 360, 1.0, -1, cv2.LINE_AA)
+    tab = tab[..., None]
+    return np.asarray(image * (1 - tab) + tab * level * float(image.mean()), np.float32)
+
+
+def _motion_kernel(path_px: tuple[float, float]) -> FloatImage:
+    """A line of unit sum along the path (x right, y down)."""
+    size = ceil(max(abs(path_px[0]), abs(path_px[1]))) | 1
+    kernel = np.zeros((size + 2, size + 2), np.float32)
+    centre = (size + 1) / 2
+    for t in np.linspace(-0.5, 0.5, 2 * size + 1):
+        kernel[round(centre + t * path_px[1]), round(centre + t * path_px[0])] += 1
+    return kernel / kernel.sum()
+
+
+def _blur_moving_finger(image: FloatImage, segment: npt.NDArray[np.uint8], path_px: tuple[float, float]) -> FloatImage:
+    """Smear the touching hand alone over what lies behind it, which is filled in from its surroundings."""
+    if hypot(*path_px) < 1.0:
+        return image
+    hand = (segment == TOUCHING_HAND).astype(np.float32)
+    visible = 1 - cv2.dilate(hand, np.ones((3, 3), np.uint8))
+    near = cv2.GaussianBlur(image * visible[..., None], (0, 0), 5) / (cv2.GaussianBlur(visible, (0, 0), 5)[..., None] + 1e-3)
+    behind = image * visible[..., None] + near * (1 - visible[..., None])
+    kernel = _motion_kernel(path_px)
+    cover = cv2.filter2D(hand, -1, kernel, borderType=cv2.BORDER_REPLICATE)[..., None]
+    moving = cv2.filter2D(image * hand[..., None], -1, kernel, borderType=cv2.BORDER_REPLICATE)
+    return np.asarray(moving + behind * (1 - cover), np.float32)
+
+
+def _optics(image: FloatImage, settings: CameraSettings) -> FloatImage:
+    if hypot(*settings.camera_motion_px) >= 1.0:
+        image = np.asarray(cv2.filter2D(image, -1, _motion_kernel(settings.camera_motion_px), borderType=cv2.BORDER_REPLICATE), np.float32)
+    return np.asarray(cv2.GaussianBlur(image, (0, 0), settings.optical_blur_px), np.float32)
+
+
+def _expose(image: FloatImage, segment: npt.NDArray[np.uint8], settings: CameraSettings) -> FloatImage:
+    """Scale so that the skin's mean meets its level, never the whole frame's: the background must not decide."""
+    skin = image[segment != BACKGROUND] if (segment != BACKGROUND).any() else image.reshape(-1, 3)
+    gain = settings.skin_level / max(float(skin.mean(0) @ LUMA), 1e-4)
+    return np.asarray(image * (gain * settings.white_balance), np.float32)
+
+
+def _develop(image: FloatImage, settings: CameraSettings, rng: np.random.Generator) -> npt.NDArray[np.uint8]:
+    """Sensor noise at the camera's own resolution, tone curve, saturation, sharpening, JPEG, then the patch's resolution."""
+    native = min(settings.native_px, PATCH_PX)
+    if native < PATCH_PX:
+        image = np.asarray(cv2.resize(image, (native, native), interpolation=cv2.INTER_AREA), np.float32)
+    grain = cv2.GaussianBlur(rng.standard_normal(image.shape, np.float32), (0, 0), settings.noise_grain_px)
+    shot = np.sqrt(np.maximum(image, 0.0) * (settings.noise * 0.06) + settings.noise**2)
+    image = np.maximum(image + grain * shot, 0.0)
+    image = image * (1 + settings.shoulder) / (1 + settings.shoulder * image)
+    tone = cv2.pow(np.minimum(image, 1.0), 1 / settings.gamma)
+    tone = 0.5 + (tone - 0.5) * settings.contrast + settings.haze
+    luma = (tone @ LUMA)[..., None]
+    tone = luma + (tone - luma) * settings.saturation
+    if settings.sharpening > 0:
+        tone = tone + settings.sharpening * (tone - cv2.GaussianBlur(tone, (0, 0), 1.0))
+    codes = np.clip(tone * 255 + 0.5, 0, 255).astype(np.uint8)
+    coded = cv2.imencode(".jpg", codes[..., ::-1], [cv2.IMWRITE_JPEG_QUALITY, settings.jpeg_quality])[1]
+    decoded = np.asarray(cv2.imdecode(coded, cv2.IMREAD_COLOR), np.uint8)
+    if native < PATCH_PX:
+        decoded = np.asarray(cv2.resize(decoded, (PATCH_PX, PATCH_PX), interpolation=cv2.INTER_LINEAR), np.uint8)
+    return np.ascontiguousarray(decoded[..., ::-1], np.uint8)

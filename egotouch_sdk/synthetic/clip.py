@@ -1,0 +1,125 @@
+"""Renders a script to a video with its ground truth: frames on several processes, then light, camera and H.264."""
+
+from __future__ import annotations
+
+import functools
+import json
+import multiprocessing as mp
+import os
+from collections.abc import Callable, Sequence
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from pathlib import Path
+from typing import Any
+
+import cv2
+import numpy as np
+import numpy.typing as npt
+
+from egotouch_sdk.errors import MissingExtraError
+from egotouch_sdk.synthetic.patches_job import participant
+from egotouch_sdk.synthetic.script import Shot
+from egotouch_sdk.synthetic.shots import DEMO
+from egotouch_sdk.synthetic.take import FPS, HEIGHT_PX, WIDTH_PX, Take
+
+#: Mean linear level of skin after exposure, about 48 % grey once encoded (our choice; cameras meter near 18 % reflectance).
+_SKIN_LEVEL = 0.2
+_CRF = "21"
+
+
+@functools.lru_cache(maxsize=1)
+def _take(shot: int) -> Take:
+    return Take(DEMO[shot], participant(DEMO[shot].participant))
+
+
+def _scratch(folder: Path, shot: int, frame: int) -> Path:
+    return folder / f"take{shot}-{frame:04d}.npz"
+
+
+def _render(folder: Path, shot: int, frames: Sequence[int]) -> int:
+    for frame in frames:
+        rendered = _take(shot).render(frame)
+        path = _scratch(folder, shot, frame)
+        partial = path.with_suffix(f".{os.getpid()}.tmp")
+        with partial.open("wb") as file:
+            layers = rendered.layers
+            np.savez(
+                file, light=np.clip(layers.light, 0, 60).astype(np.float16), albedo=layers.albedo.astype(np.float16), segment=layers.segment,
+                truth=np.array(json.dumps(rendered.truth)),
+            )
+        partial.replace(path)
+    return len(frames)
+
+
+def _develop(layers: Any, shot: Shot, exposure: float, rng: np.random.Generator) -> npt.NDArray[np.uint8]:
+    """Light, exposure, optics, sensor noise and tone curve: layers to a BGR frame."""
+    weights = np.array(shot.light_colours) * np.array(shot.light_weights)[:, None]
+    image = (layers["light"].astype(np.float32) @ weights.astype(np.float32)) * layers["albedo"].astype(np.float32) * exposure
+    image = cv2.GaussianBlur(image.astype(np.float32), (0, 0), 0.8)
+    noise = cv2.GaussianBlur(rng.standard_normal(image.shape).astype(np.float32), (0, 0), 0.5) * 1.6
+    image = np.clip(image + noise * np.sqrt(np.maximum(image, 0) * 4e-5 + 1.5e-6), 0, None)
+    image = image / (1 + 0.22 * image) * 1.18
+    return np.asarray((np.clip(image, 0, 1) ** (1 / 2.2) * 255).astype(np.uint8)[:, :, ::-1])
+
+
+def _exposure(layers: Any, shot: Shot) -> float:
+    weights = np.array(shot.light_colours) * np.array(shot.light_weights)[:, None]
+    skin = layers["segment"] > 0
+    return float(_SKIN_LEVEL / np.median(((layers["light"][skin].astype(float) @ weights) * layers["albedo"][skin]).mean(-1)))
+
+
+def render_demo(folder: Path, workers: int, report: Callable[[str], None]) -> int:
+    """Render every missing frame of the demo's takes into `folder`; returns how many were new."""
+    folder.mkdir(parents=True, exist_ok=True)
+    jobs = []
+    for shot in range(len(DEMO)):
+        missing = [f for f in range(_take(shot).frames) if not _scratch(folder, shot, f).exists()]
+        jobs += [(shot, missing[i : i + 8]) for i in range(0, len(missing), 8)]
+    total, done = sum(len(frames) for _, frames in jobs), 0
+    pool = ProcessPoolExecutor(workers, mp_context=mp.get_context("spawn"))
+    try:
+        for future in as_completed([pool.submit(_render, folder, shot, frames) for shot, frames in jobs]):
+            done += future.result()
+            report(f"{done}/{total} frames")
+    finally:
+        pool.shutdown(wait=False, cancel_futures=True)
+    return total
+
+
+def _touches(frames: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
+    found: list[dict[str, Any]] = []
+    for frame in frames:
+        key = (frame["take"], frame["act"])
+        if not frame["touching"]:
+            continue
+        if not found or found[-1]["key"] != key:
+            found.append({"key": key, "start_frame": frame["frame"], "surface": frame["surface"], "kind": frame["kind"], "finger": frame["finger"], "force_peak_n": 0.0})
+        found[-1]["end_frame"] = frame["frame"]
+        found[-1]["force_peak_n"] = max(found[-1]["force_peak_n"], frame["force_n"])
+    return [{k: v for k, v in touch.items() if k != "key"} for touch in found]
+
+
+def assemble_demo(folder: Path, video: Path, truth: Path) -> int:
+    """Develop the rendered frames into an H.264 `video` and write the `truth` beside it; returns the number of frames.
+
+    Raises `MissingExtraError` without PyAV.
+    """
+    try:
+        import av
+    except ImportError as error:
+        raise MissingExtraError("Writing clips", "synthetic") from error
+    labels: list[dict[str, Any]] = []
+    rng = np.random.default_rng(0)
+    with av.open(str(video), "w") as container:
+        stream = container.add_stream("libx264", rate=FPS, options={"crf": _CRF, "preset": "slow"})
+        stream.width, stream.height, stream.pix_fmt = WIDTH_PX, HEIGHT_PX, "yuv420p"
+        for number, shot in enumerate(DEMO):
+            exposure = 0.0
+            for frame in range(_take(number).frames):
+                with np.load(_scratch(folder, number, frame)) as layers:
+                    exposure = exposure or _exposure(layers, shot)
+                    image = _develop(layers, shot, exposure, rng)
+                    labels.append({"frame": len(labels), "take": number, **json.loads(str(layers["truth"]))})
+                container.mux(stream.encode(av.VideoFrame.from_ndarray(image, format="bgr24")))
+        container.mux(stream.encode())
+    truth.write_text(json.dumps({"fps": FPS, "frames": labels, "touches": _touches(labels)}, separators=(",", ":")) + "\n")
+    return len(labels)
