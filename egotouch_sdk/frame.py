@@ -26,7 +26,7 @@ class Frame:
     index: int
 
     def __post_init__(self) -> None:
-        image = self.image
+        image: object = self.image
         if not isinstance(image, np.ndarray) or image.ndim != 3 or image.shape[2] != 3:
             raise FrameError(f"frame image has shape {getattr(image, 'shape', None)}, need (height, width, 3)", hint="Convert it to BGR first")
         if image.dtype != np.uint8:

@@ -17,7 +17,9 @@ _EXAMPLES = """examples:
 
 def add_parser(subparsers: Any) -> None:
     """Register `synth` and its own commands."""
-    synth = subparsers.add_parser("synth", help="render synthetic touches with exact labels", epilog=_EXAMPLES, formatter_class=argparse.RawDescriptionHelpFormatter)
+    synth = subparsers.add_parser(
+        "synth", help="render synthetic touches with exact labels", epilog=_EXAMPLES, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     commands = synth.add_subparsers(dest="synth_command", required=True)
     patches = commands.add_parser("patches", help="render labelled fingertip patches (resumable)")
     patches.add_argument("--out", type=Path, required=True, help="folder for the shards")

@@ -43,7 +43,10 @@ def _render(folder: Path, shot: int, frames: Sequence[int]) -> int:
         with partial.open("wb") as file:
             layers = rendered.layers
             np.savez(
-                file, light=np.clip(layers.light, 0, 60).astype(np.float16), albedo=layers.albedo.astype(np.float16), segment=layers.segment,
+                file,
+                light=np.clip(layers.light, 0, 60).astype(np.float16),
+                albedo=layers.albedo.astype(np.float16),
+                segment=layers.segment,
                 truth=np.array(json.dumps(rendered.truth)),
             )
         partial.replace(path)
@@ -92,7 +95,16 @@ def _touches(frames: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
         if not frame["touching"]:
             continue
         if not found or found[-1]["key"] != key:
-            found.append({"key": key, "start_frame": frame["frame"], "surface": frame["surface"], "kind": frame["kind"], "finger": frame["finger"], "force_peak_n": 0.0})
+            found.append(
+                {
+                    "key": key,
+                    "start_frame": frame["frame"],
+                    "surface": frame["surface"],
+                    "kind": frame["kind"],
+                    "finger": frame["finger"],
+                    "force_peak_n": 0.0,
+                }
+            )
         found[-1]["end_frame"] = frame["frame"]
         found[-1]["force_peak_n"] = max(found[-1]["force_peak_n"], frame["force_n"])
     return [{k: v for k, v in touch.items() if k != "key"} for touch in found]

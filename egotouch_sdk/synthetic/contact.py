@@ -15,7 +15,7 @@ from scipy.ndimage import map_coordinates
 from scipy.sparse import coo_matrix
 from scipy.sparse.linalg import spsolve
 
-from egotouch_sdk.synthetic.linalg import Array, smoothstep
+from egotouch_sdk.synthetic.linalg import Array, Indices, Mask, smoothstep
 
 _HALF_M = 0.030
 _STEP_M = 0.0006
@@ -42,8 +42,10 @@ def draw_tissue(rng: np.random.Generator, place: str) -> Tissue:
     stiffness = {"palm": 3.7, "back_of_hand": 2.0, "inner_forearm": 3.7, "outer_forearm": 3.0}[place]
     share = {"palm": 0.68, "back_of_hand": 0.42, "inner_forearm": 0.68, "outer_forearm": 0.6}[place]
     return Tissue(
-        stiffness * float(np.exp(rng.normal(0, 0.2))), float(np.clip(share + rng.normal(0, 0.06), 0.3, 0.85)),
-        float(np.exp(rng.uniform(np.log(0.001), np.log(0.005)))), float(rng.uniform(0.25, 0.75)),
+        stiffness * float(np.exp(rng.normal(0, 0.2))),
+        float(np.clip(share + rng.normal(0, 0.06), 0.3, 0.85)),
+        float(np.exp(rng.uniform(np.log(0.001), np.log(0.005)))),
+        float(rng.uniform(0.25, 0.75)),
     )
 
 
@@ -58,7 +60,7 @@ class HeightField:
         self._grid = self._lowest(size, i, j, z) if lowest else self._mean(size, i, j, z)
 
     @staticmethod
-    def _mean(size: int, i: Array, j: Array, z: Array) -> Array:
+    def _mean(size: int, i: Indices, j: Indices, z: Array) -> Array:
         total, count = np.zeros((size, size)), np.zeros((size, size))
         np.add.at(total, (i, j), z)
         np.add.at(count, (i, j), 1.0)
@@ -68,7 +70,7 @@ class HeightField:
         return np.where(fine_c > 0.05, fine_t / np.maximum(fine_c, 1e-9), wide)
 
     @staticmethod
-    def _lowest(size: int, i: Array, j: Array, z: Array) -> Array:
+    def _lowest(size: int, i: Indices, j: Indices, z: Array) -> Array:
         grid = np.full((size, size), 1e3)
         np.minimum.at(grid, (i, j), z)
         grid = np.where(grid > 1e2, cv2.erode(grid, np.ones((3, 3))), grid)
@@ -83,7 +85,7 @@ class HeightField:
         return np.asarray(map_coordinates(self._grid, coords, order=1, mode="constant", cval=np.nan).reshape(x.shape))
 
 
-def _membrane(depth: Array, contact: Array, length_m: float) -> Array:
+def _membrane(depth: Array, contact: Mask, length_m: float) -> Array:
     """Solve (1 - L^2 laplacian) d = 0 outside the contact, d = depth inside, 0 on the border."""
     n = len(depth)
     index = np.arange(n * n).reshape(n, n)
@@ -137,7 +139,7 @@ def solve_dent(skin: HeightField, finger: HeightField, tissue: Tissue) -> Dent:
     near, wide = _membrane(pressed, contact, tissue.membrane_m), _membrane(pressed, contact, 2 * tissue.membrane_m)
     depth = (1 + tissue.bulge) * near - tissue.bulge * wide
     depth[contact] = pressed[contact]
-    depth = cv2.GaussianBlur(depth, (0, 0), 0.7)
+    depth = np.asarray(cv2.GaussianBlur(depth, (0, 0), 0.7), np.float64)
     radius = float(np.sqrt(contact.sum() * _SOLVE_STEP_M**2 / np.pi))
     return Dent(depth, np.nan_to_num(height - depth, nan=-1.0), radius)
 

@@ -16,6 +16,7 @@ from egotouch_sdk.synthetic.linalg import Array, unit
 
 _ROWS, _COLS = 64, 128
 KEY_DISTANCE_M = 2.5
+_LEAST_LIGHT = 0.02
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,6 +67,10 @@ def _windows(rng: np.random.Generator) -> npt.NDArray[np.float32]:
     return sky
 
 
+def _soften(image: npt.NDArray[np.float32], sigma: float) -> npt.NDArray[np.float32]:
+    return np.asarray(cv2.GaussianBlur(image, (0, 0), sigma, borderType=cv2.BORDER_REFLECT), np.float32)
+
+
 def draw_lights(rng: np.random.Generator, normal: Array, up: Array, view: Array) -> Lights:
     """Random light for skin with `normal`, seen from `view` with `up` in the image (unit vectors of the scene).
 
@@ -82,10 +87,11 @@ def draw_lights(rng: np.random.Generator, normal: Array, up: Array, view: Array)
     kind = ("sun", "bulb", "panel")[rng.choice(3, p=(0.3, 0.35, 0.35))]
     radius = {"sun": 0.27, "bulb": rng.uniform(1, 4), "panel": rng.uniform(4, 14)}[kind]
     local = rotation.T @ normal
-    maps = []
+    maps: list[npt.NDArray[np.float32]] = []
     for make in (_windows, _room):
-        image = cv2.GaussianBlur(make(rng), (0, 0), rng.uniform(0.8, 2.0), borderType=cv2.BORDER_REFLECT)
-        while (level := _irradiance(image, local)) < 0.02:
-            image = cv2.GaussianBlur(make(rng), (0, 0), 1.0, borderType=cv2.BORDER_REFLECT)
-        maps.append((image / level).astype(np.float32))
+        level = 0.0
+        while level < _LEAST_LIGHT:
+            image = _soften(make(rng), rng.uniform(0.8, 2.0))
+            level = _irradiance(image, local)
+        maps.append(np.asarray(image / level, np.float32))
     return Lights(kind, key, float(np.radians(radius)), maps[0], maps[1], rotation)

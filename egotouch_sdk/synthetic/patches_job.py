@@ -18,7 +18,7 @@ from egotouch_sdk.synthetic.hand_rig import HandRig
 from egotouch_sdk.synthetic.series import LabelledLayers, render_series
 from egotouch_sdk.synthetic.shards import write_shard
 from egotouch_sdk.synthetic.skin import SkinIdentity, bake_identity
-from egotouch_sdk.synthetic.stage import Impossible
+from egotouch_sdk.synthetic.stage import ImpossibleSceneError
 
 SERIES_PER_SHARD = 8
 #: Skin types of the participants in turn: mostly II to IV as in the paper's study, every type present (our choice).
@@ -54,7 +54,7 @@ def render_shard(job: PatchJob, shard: int, out: Path) -> int:
     for index in range(shard * SERIES_PER_SHARD, min((shard + 1) * SERIES_PER_SHARD, job.series)):
         try:
             rendered = render_series(np.random.default_rng([job.seed, index]), host, touching, identity, job.samples, index)
-        except Impossible:
+        except ImpossibleSceneError:
             continue
         extra = {"participant": number, "fitzpatrick": identity.fitzpatrick, "scene": f"{job.seed}-{index}"}
         patches += [LabelledLayers(p.layers, {**p.labels, **extra}) for p in rendered]

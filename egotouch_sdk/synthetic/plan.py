@@ -9,7 +9,7 @@ import numpy as np
 from egotouch_sdk.joints import Finger
 from egotouch_sdk.synthetic.contact import Tissue, draw_tissue
 from egotouch_sdk.synthetic.hand_rig import HandRig
-from egotouch_sdk.synthetic.linalg import Array
+from egotouch_sdk.synthetic.linalg import Indices
 from egotouch_sdk.synthetic.pose import Rotations, open_hand, pointing_hand
 
 PLACES = ("palm", "back_of_hand", "inner_forearm", "outer_forearm")
@@ -43,7 +43,7 @@ class ScenePlan:
     tissue: Tissue
 
 
-def sites(rig: HandRig, place: str) -> Array:
+def sites(rig: HandRig, place: str) -> Indices:
     """Vertices of the receiving rig (left hand, level 1) that belong to `place`."""
     n = rig.vertex_count_at[_LEVEL_OF_SITES]
     local = rig.wrist_coords[:n]

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import functools
-import glob
 import os
+import re
 import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import cv2
@@ -27,14 +28,14 @@ _GREY = 0.45
 _MAX_DEPTH = 3
 SEGMENT_BACKGROUND, SEGMENT_HOST, SEGMENT_TOUCHING = 0, 1, 2
 #: drjit 1.5 aborts on LLVM 15 ("Cannot select: fminimum"); newer ones work (measured).
-_LLVM_GLOBS = ("/usr/lib/llvm-*/lib/libLLVM-*.so*", "/usr/lib/*/libLLVM*.so*", "/usr/lib/llvm-*/lib/libLLVM.so*")
+_LLVM_GLOBS = ("lib/llvm-*/lib/libLLVM*.so*", "lib/*/libLLVM*.so*")
 _LLVM_MIN = 16
 
 
 def _find_llvm() -> str | None:
-    found = [(int(digits), path) for p in _LLVM_GLOBS for path in glob.glob(p) if (digits := "".join(filter(str.isdigit, os.path.basename(path)))[:2])]
-    usable = [entry for entry in found if entry[0] >= _LLVM_MIN]
-    return max(usable)[1] if usable else None
+    found = [path for pattern in _LLVM_GLOBS for path in Path("/usr").glob(pattern)]
+    versions = [(int(match[0]), str(path)) for path in found if (match := re.findall(r"\d+", path.name))]
+    return max(((v, p) for v, p in versions if v >= _LLVM_MIN), default=(0, None))[1]
 
 
 @functools.cache
@@ -54,7 +55,9 @@ def mitsuba(threads: int = 1) -> Any:
         mi.set_variant("llvm_ad_rgb")
         drjit.set_thread_count(threads)
     else:
-        warnings.warn("No LLVM 16 or newer found: rendering takes about 5 times longer. Install one, e.g. apt install libllvm19", stacklevel=2)
+        warnings.warn(
+            "No LLVM 16 or newer found: rendering takes about 5 times longer. Install one, e.g. apt install libllvm19", stacklevel=2
+        )
         mi.set_variant("scalar_rgb")
     return mi
 
@@ -103,13 +106,22 @@ class Backdrop:
 
 def _mesh(mi: Any, name: str, surface: Surface) -> Any:
     props = mi.Properties()
-    props["mesh_bsdf"] = mi.load_dict({
-        "type": "principled",
-        "base_color": {"type": "mesh_attribute", "name": "vertex_color"},
-        "roughness": {"type": "mesh_attribute", "name": "vertex_rough"},
-        "specular": 0.4,
-    })
-    mesh = mi.Mesh(name, vertex_count=len(surface.vertices), face_count=len(surface.faces), has_vertex_normals=True, has_vertex_texcoords=False, props=props)
+    props["mesh_bsdf"] = mi.load_dict(
+        {
+            "type": "principled",
+            "base_color": {"type": "mesh_attribute", "name": "vertex_color"},
+            "roughness": {"type": "mesh_attribute", "name": "vertex_rough"},
+            "specular": 0.4,
+        }
+    )
+    mesh = mi.Mesh(
+        name,
+        vertex_count=len(surface.vertices),
+        face_count=len(surface.faces),
+        has_vertex_normals=True,
+        has_vertex_texcoords=False,
+        props=props,
+    )
     mesh.add_attribute("vertex_color", 3, np.ascontiguousarray(surface.albedo, np.float32).ravel())
     mesh.add_attribute("vertex_rough", 1, np.ascontiguousarray(surface.roughness, np.float32).ravel())
     params = mi.traverse(mesh)
@@ -122,7 +134,14 @@ def _mesh(mi: Any, name: str, surface: Surface) -> Any:
 
 def _sensor(mi: Any, camera: Camera) -> dict[str, Any]:
     look = mi.ScalarTransform4f().look_at(origin=camera.origin.tolist(), target=camera.target.tolist(), up=camera.up.tolist())
-    return {"type": "perspective", "fov": float(np.degrees(camera.fov_rad)), "fov_axis": "x", "near_clip": 0.01, "far_clip": 20.0, "to_world": look}
+    return {
+        "type": "perspective",
+        "fov": float(np.degrees(camera.fov_rad)),
+        "fov_axis": "x",
+        "near_clip": 0.01,
+        "far_clip": 20.0,
+        "to_world": look,
+    }
 
 
 def _scene(mi: Any, host: Surface, touching: Surface, lights: Lights, focus: Array, backdrop: Backdrop, cameras: Sequence[Camera]) -> Any:
@@ -135,32 +154,55 @@ def _scene(mi: Any, host: Surface, touching: Surface, lights: Lights, focus: Arr
     lamp = focus + lights.key_direction * KEY_DISTANCE_M
     away = np.cross(lights.key_direction, [0.31, 0.9, 0.11])
     width, height = cameras[0].width_px, cameras[0].height_px
-    film = {"type": "hdrfilm", "width": width * len(cameras), "height": height, "rfilter": {"type": "box"}, "pixel_format": "rgb", "component_format": "float32"}
+    film = {
+        "type": "hdrfilm",
+        "width": width * len(cameras),
+        "height": height,
+        "rfilter": {"type": "box"},
+        "pixel_format": "rgb",
+        "component_format": "float32",
+    }
     sensor: dict[str, Any] = {"type": "batch", "film": film, "sampler": {"type": "multijitter"}}
     for i, camera in enumerate(cameras):
         single = {"type": "hdrfilm", "width": width, "height": height, "rfilter": {"type": "box"}}
         sensor[f"view{i}"] = {**_sensor(mi, camera), "film": single, "sampler": {"type": "multijitter"}}
-    return mi.load_dict({
-        "type": "scene",
-        "host": _mesh(mi, "host", host),
-        "touching": _mesh(mi, "touching", touching),
-        "sky": {"type": "envmap", "bitmap": mi.Bitmap(sky), "to_world": t(rotation)},
-        "key": {
-            "type": "disk",
-            "to_world": t().look_at(origin=lamp.tolist(), target=focus.tolist(), up=away.tolist()) @ t().scale(float(radius)),
-            "emitter": {"type": "area", "radiance": {"type": "rgb", "value": [lights.key_radiance, 0.0, 0.0]}},
-        },
-        "backdrop": {
-            "type": "rectangle",
-            "to_world": t().look_at(origin=backdrop.point.tolist(), target=(backdrop.point + backdrop.normal).tolist(), up=backdrop.up.tolist()) @ t().scale(1.6),
-            "bsdf": {"type": "diffuse", "reflectance": {"type": "bitmap", "bitmap": mi.Bitmap(backdrop.texture), "raw": True, "wrap_mode": "mirror"}},
-        },
-        "sensor": sensor,
-    })
+    return mi.load_dict(
+        {
+            "type": "scene",
+            "host": _mesh(mi, "host", host),
+            "touching": _mesh(mi, "touching", touching),
+            "sky": {"type": "envmap", "bitmap": mi.Bitmap(sky), "to_world": t(rotation)},
+            "key": {
+                "type": "disk",
+                "to_world": t().look_at(origin=lamp.tolist(), target=focus.tolist(), up=away.tolist()) @ t().scale(float(radius)),
+                "emitter": {"type": "area", "radiance": {"type": "rgb", "value": [lights.key_radiance, 0.0, 0.0]}},
+            },
+            "backdrop": {
+                "type": "rectangle",
+                "to_world": t().look_at(
+                    origin=backdrop.point.tolist(), target=(backdrop.point + backdrop.normal).tolist(), up=backdrop.up.tolist()
+                )
+                @ t().scale(1.6),
+                "bsdf": {
+                    "type": "diffuse",
+                    "reflectance": {"type": "bitmap", "bitmap": mi.Bitmap(backdrop.texture), "raw": True, "wrap_mode": "mirror"},
+                },
+            },
+            "sensor": sensor,
+        }
+    )
 
 
 def render_layers(
-    host: Surface, touching: Surface, lights: Lights, focus: Array, backdrop: Backdrop, cameras: Sequence[Camera], samples: int, seed: int, px_per_mm: float = 2.5
+    host: Surface,
+    touching: Surface,
+    lights: Lights,
+    focus: Array,
+    backdrop: Backdrop,
+    cameras: Sequence[Camera],
+    samples: int,
+    seed: int,
+    px_per_mm: float = 2.5,
 ) -> list[Layers]:
     """Render every camera's view (all of one size) of a scene as light-separated layers.
 
@@ -174,10 +216,10 @@ def render_layers(
     albedo = np.array(mi.render(scene, integrator=look, spp=8, seed=seed))[..., :3]
     ids = np.array(mi.render(scene, integrator=shape, spp=1, seed=seed + 1))
     params = mi.traverse(scene)
-    grey = [key for key in params.keys() if key.endswith("vertex_color")]
+    grey = [key for key in dict(params) if key.endswith("vertex_color")]
     for key in grey:
         params[key] = np.full(len(params[key]), _GREY, np.float32)
-    texture = next(key for key in params.keys() if key.startswith("backdrop") and key.endswith("data"))
+    texture = next(key for key in dict(params) if key.startswith("backdrop") and key.endswith("data"))
     params[texture] = np.full(np.array(params[texture]).shape, _GREY, np.float32)
     params.update()
     path = mi.load_dict({"type": "path", "max_depth": _MAX_DEPTH, "hide_emitters": False})
@@ -191,7 +233,14 @@ def render_layers(
     views = []
     for i in range(len(cameras)):
         cut = np.s_[:, i * width : (i + 1) * width]
-        views.append(Layers(_smooth(light[cut], ids[cut][..., 1], segment[cut], px_per_mm), albedo[cut].astype(np.float32), segment[cut], ids[cut][..., 1].astype(np.float32)))
+        views.append(
+            Layers(
+                _smooth(light[cut], ids[cut][..., 1], segment[cut], px_per_mm),
+                albedo[cut].astype(np.float32),
+                segment[cut],
+                ids[cut][..., 1].astype(np.float32),
+            )
+        )
     return views
 
 

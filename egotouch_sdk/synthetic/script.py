@@ -17,7 +17,7 @@ _RAMP_S = 0.12
 
 @dataclass(frozen=True, slots=True)
 class Act:
-    """One thing the finger does at `at_mm` (x towards the thumb, z towards the elbow, from the wrist): `peak` newtons, or mm for a hover."""
+    """One thing the finger does at `at_mm` (x thumbwards, z elbowwards, from the wrist); `peak` in newtons, in mm for a hover."""
 
     kind: Kind
     at_mm: tuple[float, float]

@@ -16,7 +16,7 @@ from egotouch_sdk.synthetic.linalg import Array, reject_from, unit
 from egotouch_sdk.synthetic.plan import draw_plan
 from egotouch_sdk.synthetic.render import Camera, Layers, render_layers
 from egotouch_sdk.synthetic.skin import SkinIdentity
-from egotouch_sdk.synthetic.stage import Impossible, Stage, Touch
+from egotouch_sdk.synthetic.stage import ImpossibleSceneError, Stage, Touch
 
 #: Stored side in pixels at 2.5 px/mm: the 100 px patch plus room for rotation, scale and shift at training time.
 SIDE_PX = 144
@@ -36,15 +36,15 @@ class LabelledLayers:
 
 
 def draw_stage(rng: np.random.Generator, host: HandRig, touching: HandRig, identity: SkinIdentity) -> Stage:
-    """Draw until a scene is possible (about one in six is), first on coarse meshes; raises `Impossible` after 400 draws."""
+    """Draw until a scene is possible (about one in six is), first on coarse meshes; raises `ImpossibleSceneError` after 400 draws."""
     for _ in range(_MAX_DRAWS):
         plan = draw_plan(rng, host)
         try:
             Stage(plan, host, touching, identity, detail=False)
             return Stage(plan, host, touching, identity, detail=True)
-        except Impossible:
+        except ImpossibleSceneError:
             continue
-    raise Impossible(f"no possible scene in {_MAX_DRAWS} draws")
+    raise ImpossibleSceneError(f"no possible scene in {_MAX_DRAWS} draws")
 
 
 def draw_depths(rng: np.random.Generator) -> list[dict[str, float]]:
@@ -86,15 +86,23 @@ def _labels(touch: Touch, stage: Stage, camera: Camera) -> dict[str, Any]:
     r_palms, theta_rad = polar(wrist, mcp, at, mirror=False)
     axis = unit(touch.landmarks_m[stage.plan.finger.tip] - touch.landmarks_m[stage.plan.finger.dip])
     return {
-        "touch": touch.force_n > 0, "force_n": touch.force_n, "hover_mm": touch.hover_mm, "dent_mm": touch.dent_mm,
-        "finger": str(stage.plan.finger), "place": stage.plan.place, "r_palms": r_palms, "theta_rad": theta_rad,
+        "touch": touch.force_n > 0,
+        "force_n": touch.force_n,
+        "hover_mm": touch.hover_mm,
+        "dent_mm": touch.dent_mm,
+        "finger": str(stage.plan.finger),
+        "place": stage.plan.place,
+        "r_palms": r_palms,
+        "theta_rad": theta_rad,
         "pitch_rad": float(np.arcsin(np.clip(-axis @ stage.normal, -1, 1))),
         "distance_mm": float(np.linalg.norm(tip - camera.origin) * 1e3),
     }
 
 
-def render_series(rng: np.random.Generator, host: HandRig, touching: HandRig, identity: SkinIdentity, samples: int, seed: int) -> list[LabelledLayers]:
-    """Eight labelled patches of one new scene: 4 depths x 2 views; raises `Impossible` when none can be drawn."""
+def render_series(
+    rng: np.random.Generator, host: HandRig, touching: HandRig, identity: SkinIdentity, samples: int, seed: int
+) -> list[LabelledLayers]:
+    """Eight labelled patches of one new scene: 4 depths x 2 views; raises `ImpossibleSceneError` when none can be drawn."""
     stage = draw_stage(rng, host, touching, identity)
     lights = draw_lights(rng, stage.normal, stage.aim.up, stage.aim.view)
     backdrop = draw_backdrop(rng, stage.contact, stage.aim.view, stage.aim.up)

@@ -10,7 +10,7 @@ from scipy.spatial import cKDTree
 from egotouch_sdk.joints import Finger
 from egotouch_sdk.synthetic.contact import HeightField, dent_weight, press_pad, solve_dent
 from egotouch_sdk.synthetic.hand_rig import HandRig
-from egotouch_sdk.synthetic.linalg import Array, bone_frame, reject_from, smoothstep, unit
+from egotouch_sdk.synthetic.linalg import Array, Indices, bone_frame, reject_from, smoothstep, unit
 from egotouch_sdk.synthetic.mesh import vertex_normals
 from egotouch_sdk.synthetic.plan import ScenePlan
 from egotouch_sdk.synthetic.skin import SkinIdentity
@@ -23,7 +23,7 @@ _AROUND_M = 0.065
 _DENT_REACH_M = 0.045
 
 
-class Impossible(Exception):
+class ImpossibleSceneError(Exception):
     """The drawn scene cannot be: the message says why."""
 
 
@@ -32,7 +32,7 @@ class Surface:
     """One limb ready to render: vertices (n, 3) m, faces (m, 3), linear albedo (n, 3), roughness (n,)."""
 
     vertices: Array
-    faces: Array
+    faces: Indices
     albedo: Array
     roughness: Array
 
@@ -62,12 +62,14 @@ class Aim:
 class Stage:
     """A scene plan made flesh.
 
-    `detail` False poses coarse meshes, enough to find out whether the scene is possible (raises `Impossible`).
+    `detail` False poses coarse meshes, enough to find out whether the scene is possible (raises `ImpossibleSceneError`).
     `aim` fixes the camera and the finger's direction from outside, for clips; the scene is then taken as possible.
     All in the receiving hand's own space, metres; `normal` is the skin's at the contact, `contact` the point.
     """
 
-    def __init__(self, plan: ScenePlan, host: HandRig, touching: HandRig, identity: SkinIdentity, detail: bool, aim: Aim | None = None) -> None:
+    def __init__(
+        self, plan: ScenePlan, host: HandRig, touching: HandRig, identity: SkinIdentity, detail: bool, aim: Aim | None = None
+    ) -> None:
         self.plan, self._host, self._touching, self._identity = plan, host, touching, identity
         joints = touching.finger_joint_ids(plan.finger)
         self._dip, self._tip = joints[-2], joints[-1]
@@ -165,15 +167,15 @@ class Stage:
 
     def _check(self) -> None:
         if self.hidden_from(self.contact + self.aim.view * self.plan.distance_m):
-            raise Impossible("fingertip hidden")
+            raise ImpossibleSceneError("fingertip hidden")
         if self.nail_normal @ self.aim.view < 0.15:
-            raise Impossible("nail faces away")
+            raise ImpossibleSceneError("nail faces away")
         others = np.setdiff1d(np.arange(0, len(self._touch_v), 9), self._pad)
         distance, nearest = cKDTree(self._host_v[::3]).query(self._touch_v[others])
         inside = ((self._touch_v[others] - self._host_v[::3][nearest]) * self._host_n[::3][nearest]).sum(1) < -0.004
         allowed = 0.0005 if self.plan.finger is not Finger.THUMB else 0.005
         if (inside & (distance < 0.03)).mean() > allowed:
-            raise Impossible("arms collide")
+            raise ImpossibleSceneError("arms collide")
 
     def at(self, force_n: float = 0.0, hover_mm: float = 0.0) -> Touch:
         """The pair pressed with `force_n` (> 0) or hovering `hover_mm` above the skin along its normal."""
@@ -187,9 +189,12 @@ class Stage:
             host_v, touch_v, host_albedo, dent_mm = self._press(touch_v, sink, force_n, host_albedo)
             touch_albedo = touch_albedo if self._identity.polished else self._blanch_nail(touch_albedo, force_n)
         return Touch(
-            Surface(host_v, self._host_faces, host_albedo, skin_l.roughness[self._host_ids]),
-            Surface(touch_v, self._touch_faces, touch_albedo, skin_r.roughness[self._touch_ids]),
-            self._landmarks + shift, force_n, hover_mm, dent_mm,
+            Surface(host_v, self._host_faces, host_albedo, skin_l.roughness[self._host_ids].astype(float)),
+            Surface(touch_v, self._touch_faces, touch_albedo, skin_r.roughness[self._touch_ids].astype(float)),
+            self._landmarks + shift,
+            force_n,
+            hover_mm,
+            dent_mm,
         )
 
     def _press(self, touch_v: Array, sink: float, force_n: float, host_albedo: Array) -> tuple[Array, Array, Array, float]:

@@ -28,6 +28,10 @@ _SAMPLES = 12
 _LONG = tuple(f for f in FINGERS if f is not Finger.THUMB)
 
 
+def _rounded(points: Array) -> list[list[float]]:
+    return [[round(float(v), 2) for v in point[:2]] for point in points]
+
+
 @dataclass(frozen=True, slots=True)
 class TakeFrame:
     """One rendered frame before the camera model, with its truth (JSON-ready)."""
@@ -91,10 +95,10 @@ class Take:
 
     def _pose_touching(self, now: Moment, time_s: float) -> dict[str, tuple[float, float, float]]:
         pose: dict[str, tuple[float, float, float]] = {"forearm": (6.0, 6.0, 0.0)}
-        for i, finger in enumerate(_LONG):
-            pose[f"{finger}-finger-phalanx-proximal"] = (56.0 + 3 * i, (1.5 - i) * 2, 0.0)
-            pose[f"{finger}-finger-phalanx-intermediate"] = (86.0 + 3 * i, 0.0, 0.0)
-            pose[f"{finger}-finger-phalanx-distal"] = (42.0, 0.0, 0.0)
+        for i, tucked in enumerate(_LONG):
+            pose[f"{tucked}-finger-phalanx-proximal"] = (56.0 + 3 * i, (1.5 - i) * 2, 0.0)
+            pose[f"{tucked}-finger-phalanx-intermediate"] = (86.0 + 3 * i, 0.0, 0.0)
+            pose[f"{tucked}-finger-phalanx-distal"] = (42.0, 0.0, 0.0)
         pose["thumb-phalanx-proximal"], pose["thumb-phalanx-distal"] = (22.0, 0.0, 0.0), (30.0, 0.0, 0.0)
         lift, press = min(now.hover_mm / 25, 1.2), min(now.force_n, 3.0)
         finger = self._shot.finger
@@ -107,10 +111,18 @@ class Take:
         shot = self._shot
         _, nearest = self._tree.query(np.array(now.at_mm) * 1e-3)
         plan = ScenePlan(
-            place=shot.place, finger=shot.finger, host_pose=self._pose_host(time_s), touching_pose=self._pose_touching(now, time_s),
-            site=int(self._sites[nearest]), arm_azimuth_rad=float(np.radians(shot.arm_azimuth_deg)), view_tilt_rad=0.0, view_azimuth_rad=0.0,
-            distance_m=shot.distance_m, heading_rad=float(np.radians(shot.heading_deg + 1.2 * self._sway(21, time_s))),
-            pitch_rad=float(np.radians(shot.pitch_deg + 1.2 * self._sway(22, time_s))), roll_rad=float(np.radians(shot.roll_deg)),
+            place=shot.place,
+            finger=shot.finger,
+            host_pose=self._pose_host(time_s),
+            touching_pose=self._pose_touching(now, time_s),
+            site=int(self._sites[nearest]),
+            arm_azimuth_rad=float(np.radians(shot.arm_azimuth_deg)),
+            view_tilt_rad=0.0,
+            view_azimuth_rad=0.0,
+            distance_m=shot.distance_m,
+            heading_rad=float(np.radians(shot.heading_deg + 1.2 * self._sway(21, time_s))),
+            pitch_rad=float(np.radians(shot.pitch_deg + 1.2 * self._sway(22, time_s))),
+            roll_rad=float(np.radians(shot.roll_deg)),
             tissue=Tissue(shot.stiffness_mm, shot.skin_share, 0.0022, 0.5),
         )
         return Stage(plan, self._host, self._touching, self._identity, detail=True, aim=aim or self._level_aim(plan))
@@ -130,7 +142,9 @@ class Take:
         move = 0.004 * (sway(0, time_s) * self._aim.right + sway(1, time_s) * self._aim.up + sway(2, time_s) * self._aim.view)
         turn = 0.004 * (sway(3, time_s) * self._aim.right + sway(4, time_s) * self._aim.up)
         origin = self._centre + self._aim.view * self._shot.distance_m + move
-        return Camera(origin, self._centre + turn, unit(self._aim.up + 0.012 * sway(5, time_s) * self._aim.right), _FOV_RAD, WIDTH_PX, HEIGHT_PX)
+        return Camera(
+            origin, self._centre + turn, unit(self._aim.up + 0.012 * sway(5, time_s) * self._aim.right), _FOV_RAD, WIDTH_PX, HEIGHT_PX
+        )
 
     def render(self, frame: int) -> TakeFrame:
         """Render frame 0 .. `frames` - 1."""
@@ -140,7 +154,15 @@ class Take:
         touch = stage.at(force_n=now.force_n, hover_mm=now.hover_mm)
         camera = self._camera(time_s)
         layers = render_layers(
-            touch.host, touch.touching, self._lights, self._centre, self._backdrop, [camera], _SAMPLES, 1000 * self._shot.seed + frame, px_per_mm=1.3
+            touch.host,
+            touch.touching,
+            self._lights,
+            self._centre,
+            self._backdrop,
+            [camera],
+            _SAMPLES,
+            1000 * self._shot.seed + frame,
+            px_per_mm=1.3,
         )[0]
         return TakeFrame(layers, self._truth(touch, stage, camera, now))
 
@@ -149,18 +171,22 @@ class Take:
         at = camera.project(np.vstack([tip, stage.host_landmarks_m, touch.landmarks_m]))
         focal_px = WIDTH_PX / 2 / np.tan(_FOV_RAD / 2)
         act = self._shot.acts[now.act]
-        rounded = lambda rows: [[round(float(v), 2) for v in row[:2]] for row in rows]  # noqa: E731
         return {
-            "touching": now.force_n > 0, "force_n": round(now.force_n, 4), "hover_mm": round(now.hover_mm, 3),
-            "surface": self._shot.place, "finger": str(self._shot.finger), "hand": "right", "act": now.act, "kind": act.kind,
-            "tip_px": rounded(at[:1])[0], "px_per_mm": round(float(focal_px / at[0, 2] / 1e3), 4),
+            "touching": now.force_n > 0,
+            "force_n": round(now.force_n, 4),
+            "hover_mm": round(now.hover_mm, 3),
+            "surface": self._shot.place,
+            "finger": str(self._shot.finger),
+            "hand": "right",
+            "act": now.act,
+            "kind": act.kind,
+            "tip_px": _rounded(at[:1])[0],
+            "px_per_mm": round(float(focal_px / at[0, 2] / 1e3), 4),
             "pitch_rad": round(self._pitch(touch, stage), 4),
-            "landmarks_px": {"left": rounded(at[1:22]), "right": rounded(at[22:])},
+            "landmarks_px": {"left": _rounded(at[1:22]), "right": _rounded(at[22:])},
         }
 
     def _pitch(self, touch: Touch, stage: Stage) -> float:
         finger = self._shot.finger
         axis: Array = unit(touch.landmarks_m[finger.tip] - touch.landmarks_m[finger.dip])
         return float(np.arcsin(np.clip(-axis @ stage.normal, -1, 1)))
-
-
