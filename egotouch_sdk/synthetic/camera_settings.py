@@ -79,7 +79,7 @@ def draw_settings(rng: np.random.Generator) -> CameraSettings:
     mix = LightMix(rng.choice(list(MIX_SHARES), p=list(MIX_SHARES.values())))
     return CameraSettings(
         light_gains=_light_gains(rng, mix),
-        crevice_tint=np.array([-rng.uniform(0, 0.25), 0.0, rng.uniform(-0.05, 0.12)], np.float32),
+        crevice_tint=_crevice_tint(rng),
         tone_power=_tone_power(rng),
         tone_gains=_tone_gains(rng),
         shift_px=(_bounded_normal(rng, 4.5, MAX_SHIFT_PX), _bounded_normal(rng, 5.0, MAX_SHIFT_PX)),
@@ -114,6 +114,12 @@ def _light_gains(rng: np.random.Generator, mix: LightMix) -> npt.NDArray[np.floa
     tint = rng.normal(0, 0.03, 3)
     colours = np.exp(np.stack([warmth, tint, -warmth], 1))
     return (weights[:, None] * colours).astype(np.float32)
+
+
+def _crevice_tint(rng: np.random.Generator) -> npt.NDArray[np.float32]:
+    """Renders bounce light off one grey of 0.45; skin of types II to IV reflects about 0.45, 0.28 and 0.2, darker skin less."""
+    depth = rng.uniform(-0.05, 0.25)
+    return np.array([depth - rng.uniform(0, 0.2), depth, depth + rng.uniform(-0.05, 0.15)], np.float32)
 
 
 def _tone_power(rng: np.random.Generator) -> float:
