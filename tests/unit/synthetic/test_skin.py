@@ -20,6 +20,7 @@ from egotouch_sdk.synthetic.skin import SkinIdentity, bake_identity, identity_pa
 from egotouch_sdk.synthetic.skin_side import SkinSide
 from egotouch_sdk.synthetic.skin_traits import draw_traits
 
+pytestmark = pytest.mark.slow
 LEVEL = 3
 LUMA = np.array([0.2126, 0.7152, 0.0722])
 
