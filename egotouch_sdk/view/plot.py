@@ -14,11 +14,11 @@ from egotouch_sdk.view.palette import DOWN, GRID, HOVER, MUTED, PANEL, Colour, I
 from egotouch_sdk.view.timeline import Timeline, TipState, Track
 
 FINGER_COLOUR: dict[Finger, Colour] = {
-    Finger.THUMB: (120, 200, 250),
-    Finger.INDEX: (90, 220, 120),
-    Finger.MIDDLE: (240, 180, 90),
-    Finger.RING: (210, 130, 230),
-    Finger.PINKY: (110, 130, 250),
+    Finger.THUMB: (115, 150, 250),
+    Finger.INDEX: (90, 210, 245),
+    Finger.MIDDLE: (240, 190, 80),
+    Finger.RING: (215, 130, 225),
+    Finger.PINKY: (180, 220, 130),
 }
 _MARGIN_LEFT = 52
 _MARGIN_TOP = 26

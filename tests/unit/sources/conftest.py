@@ -12,7 +12,9 @@ WriteVideo = Callable[..., Path]
 def write_video(tmp_path: Path) -> WriteVideo:
     """Writes a video whose frame `i` is uniformly grey `40 + 4 * i`, so that each frame can be told from its neighbours."""
 
-    def write(name: str = "clip.mp4", frames: int = 20, fps: float = 30.0, size_px: tuple[int, int] = (96, 64), fourcc: str = "mp4v") -> Path:
+    def write(
+        name: str = "clip.mp4", frames: int = 20, fps: float = 30.0, size_px: tuple[int, int] = (96, 64), fourcc: str = "mp4v"
+    ) -> Path:
         path = tmp_path / name
         writer = cv2.VideoWriter(str(path), cv2.VideoWriter.fourcc(*fourcc), fps, size_px)
         assert writer.isOpened()

@@ -1,5 +1,6 @@
 """A motion JPEG stream on the loopback address stands for the camera: OpenCV reads it like any network camera."""
 
+import itertools
 from collections.abc import Iterator
 from threading import Event, Thread
 
@@ -49,7 +50,7 @@ def test_frames_are_stamped_in_rising_monotonic_time(streaming: StreamingCamera)
         frames = [frame for frame, _ in zip(camera, range(10), strict=False)]
         assert camera.is_live
     assert (frames[0].width_px, frames[0].height_px) == (160, 120)
-    assert all(a.timestamp_ns < b.timestamp_ns and a.index < b.index for a, b in zip(frames, frames[1:], strict=False))
+    assert all(a.timestamp_ns < b.timestamp_ns and a.index < b.index for a, b in itertools.pairwise(frames))
 
 
 def test_a_slow_consumer_gets_the_newest_frame(streaming: StreamingCamera) -> None:
@@ -75,7 +76,7 @@ def test_a_silent_camera_is_a_source_error(streaming: StreamingCamera) -> None:
         frames = iter(camera)
         next(frames)
         streaming.fall_silent()
-        with pytest.raises(SourceError, match="sent no frame for 1 s|unplugged"):
+        with pytest.raises(SourceError, match=r"sent no frame for 1 s|unplugged"):
             for _ in frames:
                 pass
 

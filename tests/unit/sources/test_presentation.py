@@ -1,3 +1,4 @@
+import itertools
 import math
 
 import pytest
@@ -46,4 +47,4 @@ def test_whatever_a_file_states_timestamps_rise_strictly_from_zero(stated_ms: li
     times = PresentationTimes(30.0)
     stamps = [times.next_ns(ms) for ms in stated_ms]
     assert stamps[0] == 0
-    assert all(a < b for a, b in zip(stamps, stamps[1:], strict=False))
+    assert all(a < b for a, b in itertools.pairwise(stamps))

@@ -1,0 +1,104 @@
+from typing import Any
+
+import pytest
+
+from egotouch_sdk.errors import SourceError
+from egotouch_sdk.evaluation.scoreboard import ClipTruth, Scoreboard, score
+from egotouch_sdk.joints import Finger, Handedness
+from egotouch_sdk.touch_event import CancelReason, EventType, TouchEvent
+
+FPS = 30.0
+
+
+def at_ns(frame: int) -> int:
+    return round(frame * 1e9 / FPS)
+
+
+def truth_of(*spans: tuple[int, int], frames: int = 120, force_n: float = 1.0, finger: str = "index") -> ClipTruth:
+    def touching(frame: int) -> bool:
+        return any(start <= frame <= end for start, end in spans)
+
+    data = {
+        "fps": FPS,
+        "frames": [
+            {"frame": frame, "touching": touching(frame), "force_n": force_n * touching(frame), "finger": finger, "hand": "right"}
+            for frame in range(frames)
+        ],
+        "touches": [{"start_frame": start, "end_frame": end, "force_peak_n": force_n} for start, end in spans],
+    }
+    return ClipTruth.from_dict(data)
+
+
+def event(kind: EventType, frame: int, force_n: float = 0.0, finger: Finger = Finger.INDEX) -> TouchEvent:
+    reason = CancelReason.TRACKING_LOST if kind is EventType.CANCEL else None
+    return TouchEvent(kind, 1, 1, at_ns(frame), Handedness.RIGHT, finger, 0.9, force_n, 0.5, 0.5, 0.0, 0.0, reason)
+
+
+def touch(start: int, end: int, force_n: float = 1.0, finger: Finger = Finger.INDEX, last: EventType = EventType.UP) -> list[TouchEvent]:
+    moves = [event(EventType.MOVE, frame, force_n, finger) for frame in range(start + 1, end)]
+    return [event(EventType.DOWN, start, force_n, finger), *moves, event(last, end, 0.0, finger)]
+
+
+def test_a_touch_is_found_late_with_a_known_force_error() -> None:
+    board = score(truth_of((10, 20)), touch(12, 21, force_n=1.5))
+    assert board == Scoreboard(1, 1, 0, 0, pytest.approx(66.667, abs=0.001), pytest.approx(0.5))
+
+
+def test_the_onset_error_is_the_median_of_absolute_errors() -> None:
+    events = [*touch(9, 20), *touch(44, 55), *touch(81, 95)]
+    board = score(truth_of((10, 20), (40, 55), (80, 95)), events)
+    assert board.onset_error_ms_median == pytest.approx(1000 / 30)
+
+
+def test_nothing_predicted_is_all_missed() -> None:
+    assert score(truth_of((10, 20), (40, 50)), []) == Scoreboard(2, 0, 2, 0, None, None)
+
+
+def test_a_touch_where_there_is_none_is_false() -> None:
+    board = score(truth_of((10, 20)), [*touch(10, 20), *touch(60, 70)])
+    assert (board.found, board.missed, board.false) == (1, 0, 1)
+
+
+def test_a_true_touch_broken_in_two_counts_once_and_the_rest_is_false() -> None:
+    board = score(truth_of((10, 40)), [*touch(10, 20), *touch(25, 40)])
+    assert (board.found, board.missed, board.false) == (1, 0, 1)
+
+
+def test_one_long_touch_over_two_true_ones_finds_only_one() -> None:
+    board = score(truth_of((10, 20), (30, 40)), touch(10, 40))
+    assert (board.found, board.missed, board.false) == (1, 1, 0)
+
+
+def test_the_wrong_finger_is_both_missed_and_false() -> None:
+    board = score(truth_of((10, 20)), touch(10, 20, finger=Finger.MIDDLE))
+    assert (board.found, board.missed, board.false, board.force_mae_n) == (0, 1, 1, None)
+
+
+def test_a_cancelled_touch_was_still_found() -> None:
+    assert score(truth_of((10, 20)), touch(11, 15, last=EventType.CANCEL)).found == 1
+
+
+@pytest.mark.parametrize(("end", "found"), [(7, 1), (6, 0)])
+def test_a_touch_may_end_three_frames_early_and_no_more(end: int, found: int) -> None:
+    assert score(truth_of((10, 20)), touch(2, end)).found == found
+
+
+def test_a_clip_left_early_is_scored_on_what_had_begun() -> None:
+    assert score(truth_of((10, 20), (60, 70)).until(at_ns(30)), touch(10, 20)).missed == 0
+
+
+def test_the_dictionary_has_the_documented_keys() -> None:
+    assert list(score(truth_of((10, 20)), touch(12, 21)).to_dict()) == [
+        "touches",
+        "found",
+        "missed",
+        "false",
+        "onset_error_ms_median",
+        "force_mae_n",
+    ]
+
+
+@pytest.mark.parametrize("data", [{}, {"fps": 30}, {"fps": "x", "frames": [], "touches": []}, {"fps": 0, "frames": [], "touches": [{}]}])
+def test_truth_of_another_form_is_refused(data: dict[str, Any]) -> None:
+    with pytest.raises(SourceError, match="ground truth"):
+        ClipTruth.from_dict(data)
