@@ -16,7 +16,8 @@ from egotouch_sdk.synthetic.linalg import Array, unit
 
 _ROWS, _COLS = 64, 128
 KEY_DISTANCE_M = 2.5
-_LEAST_LIGHT = 0.02
+#: Least light on the receiving skin, relative to a surface that faces the light: nobody uses skin in its own shade (our choice).
+_LEAST_SHARE = 0.45
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,6 +68,11 @@ def _windows(rng: np.random.Generator) -> npt.NDArray[np.float32]:
     return sky
 
 
+def _main_direction(radiance: npt.NDArray[np.float32]) -> Array:
+    weight = radiance * np.sin((np.arange(_ROWS) + 0.5) / _ROWS * np.pi)[:, None]
+    return unit((_map_directions() * weight[..., None]).sum((0, 1)))
+
+
 def _soften(image: npt.NDArray[np.float32], sigma: float) -> npt.NDArray[np.float32]:
     return np.asarray(cv2.GaussianBlur(image, (0, 0), sigma, borderType=cv2.BORDER_REFLECT), np.float32)
 
@@ -82,16 +88,16 @@ def draw_lights(rng: np.random.Generator, normal: Array, up: Array, view: Array)
     forward = np.cross(world_up, side)
     azimuth, elevation = rng.uniform(0, 2 * np.pi), np.radians(rng.uniform(18, 80))
     key = np.sin(elevation) * world_up + np.cos(elevation) * (np.cos(azimuth) * side + np.sin(azimuth) * forward)
-    if key @ normal < 0.15:
-        key = unit(key + normal * (0.4 - key @ normal))
+    if key @ normal < _LEAST_SHARE:
+        key = unit(key + normal * (1.2 * _LEAST_SHARE - key @ normal))
     kind = ("sun", "bulb", "panel")[rng.choice(3, p=(0.3, 0.35, 0.35))]
     radius = {"sun": 0.27, "bulb": rng.uniform(1, 4), "panel": rng.uniform(4, 14)}[kind]
     local = rotation.T @ normal
     maps: list[npt.NDArray[np.float32]] = []
     for make in (_windows, _room):
-        level = 0.0
-        while level < _LEAST_LIGHT:
+        level, strongest = 0.0, 1.0
+        while level < _LEAST_SHARE * strongest:
             image = _soften(make(rng), rng.uniform(0.8, 2.0))
-            level = _irradiance(image, local)
+            level, strongest = _irradiance(image, local), _irradiance(image, _main_direction(image))
         maps.append(np.asarray(image / level, np.float32))
     return Lights(kind, key, float(np.radians(radius)), maps[0], maps[1], rotation)
