@@ -57,7 +57,7 @@ class HandTracker:
         *,
         min_palm_score: float = 0.5,
         min_presence: float = 0.5,
-        coast_ms: float = 130.0,
+        coast_ms: float = 150.0,
         model: str = "full",
     ) -> None:
         if max_hands not in (1, 2):

@@ -10,8 +10,8 @@ from egotouch_sdk.hands.pushed import JointAxes, PushedHands, hand_from_joints
 from egotouch_sdk.joints import WEBXR_INDEX, Handedness
 
 RNG = np.random.default_rng(0)
-METRES = RNG.uniform(-0.05, 0.05, (25, 3)) + (0.1, -0.2, 0.5)
-PIXELS = METRES[:, :2] * 1500 + (320, 240)
+METRES = RNG.uniform(-0.05, 0.05, (25, 3)) + np.array([0.1, -0.2, 0.5])
+PIXELS = METRES[:, :2] * 1500 + np.array([320, 240])
 IMAGE = np.zeros((48, 64, 3), np.uint8)
 MS = 1_000_000
 
