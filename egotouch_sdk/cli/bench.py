@@ -27,7 +27,7 @@ def add_parser(subparsers: Subparsers) -> None:
     parser.add_argument("--frames", type=positive_int, default=300, metavar="N", help="frames to time at most (default 300)")
     parser.add_argument("--threads", type=positive_int, default=1, metavar="N", help="threads per network (default 1)")
     parser.add_argument("--json", action="store_true", help="one JSON object on stdout")
-    parser.set_defaults(run=bench)
+    parser.set_defaults(handler=bench)
 
 
 def bench(options: argparse.Namespace) -> int:

@@ -34,7 +34,7 @@ def add_parser(subparsers: Subparsers) -> None:
     parser.add_argument("--save", type=Path, metavar="FILE.mp4", help="write the annotated view to a video file")
     parser.add_argument("--port", type=int, default=0, help="port of the live view on 127.0.0.1 (default: a free one)")
     parser.add_argument("--threads", type=positive_int, default=1, metavar="N", help="threads per network (default 1)")
-    parser.set_defaults(run=demo)
+    parser.set_defaults(handler=demo)
 
 
 def demo(options: argparse.Namespace) -> int:

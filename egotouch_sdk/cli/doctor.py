@@ -48,7 +48,7 @@ def add_parser(subparsers: Subparsers) -> None:
     parser = add_command(subparsers, "doctor", "check the installation, models and cameras, and say how to mend what is wrong", EXAMPLES)
     parser.add_argument("--json", action="store_true", help='one JSON object {"findings": [...], "broken": n}')
     parser.add_argument("--no-cameras", action="store_true", help="do not open any camera")
-    parser.set_defaults(run=doctor)
+    parser.set_defaults(handler=doctor)
 
 
 def doctor(options: argparse.Namespace) -> int:

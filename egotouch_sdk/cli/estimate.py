@@ -39,7 +39,7 @@ def add_parser(subparsers: Subparsers) -> None:
     parser.add_argument("--model", type=Path, metavar="FILE.onnx", help="another touch model, its .json manifest beside it")
     parser.add_argument("--threads", type=positive_int, default=1, metavar="N", help="threads of the network (default 1)")
     parser.add_argument("--json", action="store_true", help="one JSON object per image on stdout")
-    parser.set_defaults(run=estimate)
+    parser.set_defaults(handler=estimate)
 
 
 def cut(path: Path, tip: tuple[float, float], px_per_mm: float, left: bool) -> FingertipPatch:

@@ -33,7 +33,7 @@ def add_parser(subparsers: Subparsers) -> None:
     add_pipeline_options(parser)
     parser.add_argument("--json", action="store_true", help="one JSON object per frame on stdout")
     parser.add_argument("--progress", action="store_true", help="report progress on stderr even when that is not a terminal")
-    parser.set_defaults(run=hands)
+    parser.set_defaults(handler=hands)
 
 
 def frame_record(frame: Frame, hands: tuple[HandObservation, ...]) -> dict[str, Any]:

@@ -56,7 +56,7 @@ class _Parser(argparse.ArgumentParser):
 
 
 def build_parser() -> argparse.ArgumentParser:
-    """The whole command line; subcommands set `run`, a function from the parsed arguments to an exit code."""
+    """The whole command line; subcommands set `handler`, a function from the parsed arguments to an exit code."""
     parser = _Parser(
         prog="egotouch",
         description="Touch on bare skin from any RGB camera.",
@@ -95,7 +95,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         warnings.showwarning = _show_warning
         warnings.simplefilter("always", UserWarning)
         try:
-            return int(options.run(options))
+            return int(options.handler(options))
         except EgoTouchError as error:
             sys.stderr.write(f"egotouch: error: {error}\n")
             return EXIT_ERROR

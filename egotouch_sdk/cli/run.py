@@ -44,7 +44,7 @@ def add_parser(subparsers: Subparsers) -> None:
     parser.add_argument("--save", type=Path, metavar="FILE.mp4", help="write the annotated view to a video file")
     parser.add_argument("--port", type=int, default=0, help="port of the live view on 127.0.0.1 (default: a free one)")
     parser.add_argument("--progress", action="store_true", help="report progress on stderr even when that is not a terminal")
-    parser.set_defaults(run=run)
+    parser.set_defaults(handler=run)
 
 
 def run(options: argparse.Namespace) -> int:

@@ -20,7 +20,8 @@ def sound_fps(announced: float) -> float | None:
 class PresentationTimes:
     """Turns each frame's presentation time into integer nanoseconds with the first frame at 0.
 
-    A time that is not finite, does not rise or leaps by more than an hour is replaced by the last one plus one frame, so the result always rises.
+    A time that is not finite, does not rise or leaps by more than an hour is replaced by the last one plus one frame, so the
+    result always rises.
     With `constant_fps` the file's times are ignored.
     """
 

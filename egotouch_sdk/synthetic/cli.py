@@ -28,18 +28,18 @@ def add_parser(subparsers: Any) -> None:
     patches.add_argument("--samples", type=int, default=12, help="light paths per pixel (default 12)")
     patches.add_argument("--seed", type=int, default=0)
     patches.add_argument("--workers", type=int, default=os.cpu_count() or 1, help="processes (default: all cores)")
-    patches.set_defaults(run=_patches)
+    patches.set_defaults(handler=_patches)
     demo = commands.add_parser("demo", help="render the demo clip and its ground truth (resumable, about 20 minutes on 2 cores)")
     demo.add_argument("--scratch", type=Path, required=True, help="folder for rendered frames (about 1 GB)")
     demo.add_argument("--out", type=Path, required=True, help="folder for demo.mp4 and demo_truth.json")
     demo.add_argument("--workers", type=int, default=os.cpu_count() or 1, help="processes (default: all cores)")
-    demo.set_defaults(run=_demo)
+    demo.set_defaults(handler=_demo)
     sheet = commands.add_parser("sheet", help="contact sheet of a folder of patches")
     sheet.add_argument("folder", type=Path)
     sheet.add_argument("picture", type=Path)
     sheet.add_argument("--rows", type=int, default=10)
     sheet.add_argument("--seed", type=int, default=0)
-    sheet.set_defaults(run=_sheet)
+    sheet.set_defaults(handler=_sheet)
 
 
 def _patches(args: argparse.Namespace) -> int:
