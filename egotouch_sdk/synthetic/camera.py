@@ -78,7 +78,9 @@ def _framing(side_px: int, settings: CameraSettings) -> npt.NDArray[np.float64]:
     return np.array([[c, -s, centre - c * dx + s * dy], [s, c, centre - s * dx - c * dy]])
 
 
-def _warp(image: npt.NDArray[np.floating] | npt.NDArray[np.uint8], to_image: npt.NDArray[np.float64], interpolation: int = cv2.INTER_LINEAR) -> FloatImage:
+def _warp(
+    image: npt.NDArray[np.floating] | npt.NDArray[np.uint8], to_image: npt.NDArray[np.float64], interpolation: int = cv2.INTER_LINEAR
+) -> FloatImage:
     size = (PATCH_PX, PATCH_PX)
     flags = interpolation | cv2.WARP_INVERSE_MAP
     return np.asarray(cv2.warpAffine(image, to_image, size, flags=flags, borderMode=cv2.BORDER_REPLICATE), np.float32)

@@ -99,7 +99,7 @@ def write_onnx(folded: TouchNetwork, path: Path) -> None:
         str(path),
         input_names=["patch", "polar"],
         output_names=["touch_logit", "force_n"],
-        dynamic_axes={name: batch for name in ("patch", "polar", "touch_logit", "force_n")},
+        dynamic_axes=dict.fromkeys(("patch", "polar", "touch_logit", "force_n"), batch),
         opset_version=ONNX_OPSET,
         dynamo=False,
     )
@@ -119,7 +119,7 @@ def check_parity(
         got = session.run(["touch_logit", "force_n"], {"patch": patch[:count], "polar": polar[:count]})
         worst = max(float(np.abs(g - e[:count]).max()) for g, e in zip(got, expected, strict=True))
         if worst > PARITY_TOLERANCE:
-            raise ModelError(f"{path.name} differs from the trained network by {worst:.2g}", hint="Report this with your torch and onnx versions")
+            raise ModelError(f"{path.name} differs from the trained network by {worst:.2g}", hint="Report your torch and onnx versions")
 
 
 def build_manifest(network: TouchNetwork, facts: ModelFacts, path: Path) -> dict[str, Any]:

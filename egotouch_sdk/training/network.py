@@ -104,7 +104,7 @@ class FoldableConv(nn.Module):
 def _fixed_conv(weight: Tensor, bias: Tensor, stride: int, groups: int) -> nn.Conv2d:
     outputs, per_group, size, _ = weight.shape
     conv = nn.Conv2d(per_group * groups, outputs, size, stride, size // 2, groups=groups)
-    conv.weight.data, conv.bias.data = weight.detach().clone(), bias.detach().clone()  # type: ignore[union-attr]
+    conv.weight.data, conv.bias.data = weight.detach().clone(), bias.detach().clone()
     return conv
 
 
@@ -222,13 +222,27 @@ class TouchNetwork(nn.Module):
         self.hidden = nn.Linear(FEATURES + 2, HIDDEN)
         self.outputs = nn.Linear(HIDDEN, 2)
 
-    def forward(self, patch: Tensor, polar: Tensor) -> tuple[Tensor, Tensor]:
+    def embed(self, patch: Tensor, polar: Tensor) -> Tensor:
+        """The 128 hidden values (N, 128) that both outputs are read from."""
         pooled = self.excite(self.expand(self.trunk(patch))).mean((2, 3))
         place = torch.stack([polar[:, 0], polar[:, 1] / math.pi], 1)
         joined = torch.cat([self.dropout(self.features(pooled)), place], 1)
-        logit, force = self.outputs(torch.relu(self.hidden(joined))).unbind(1)
+        return torch.relu(self.hidden(joined))
+
+    def decide(self, hidden: Tensor) -> tuple[Tensor, Tensor]:
+        """Touch logit (N,) and force (N,) in newtons of the hidden values."""
+        logit, force = self.outputs(hidden).unbind(1)
         force_n = force * FORCE_MAX_N
         return logit, force_n if self.training else force_n.clamp(0.0, FORCE_MAX_N)
+
+    def forward(self, patch: Tensor, polar: Tensor) -> tuple[Tensor, Tensor]:
+        return self.decide(self.embed(patch, polar))
+
+    def use_fast_layout(self) -> TouchNetwork:
+        """Keep activations channel-last, about a third faster on CPUs; the first block stays as it is (torch 2.13 crashes on it)."""
+        self.to(memory_format=torch.channels_last)
+        self.trunk[0][0].to(memory_format=torch.contiguous_format)
+        return self
 
 
 def reparameterise(network: TouchNetwork) -> TouchNetwork:

@@ -1,0 +1,58 @@
+"""Video in which nothing is touched: every DOWN is a false one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from egotouch_sdk.touch_event import CancelReason, EventType
+
+if TYPE_CHECKING:
+    from egotouch_sdk.frame import Frame
+    from egotouch_sdk.pipeline import TouchPipeline
+
+
+@dataclass(frozen=True, slots=True)
+class FalseTouches:
+    """What the pipeline made of one clip without touches. `patches` counts fingertips that the gate let through."""
+
+    frames: int
+    duration_s: float
+    downs: int
+    patches: int
+    frames_with_hands: int
+    frames_with_open_gate: int
+
+    def __add__(self, other: FalseTouches) -> FalseTouches:
+        return FalseTouches(
+            self.frames + other.frames,
+            self.duration_s + other.duration_s,
+            self.downs + other.downs,
+            self.patches + other.patches,
+            self.frames_with_hands + other.frames_with_hands,
+            self.frames_with_open_gate + other.frames_with_open_gate,
+        )
+
+    @property
+    def downs_per_minute(self) -> float:
+        """False touches per minute of video, 0 for an empty clip."""
+        return self.downs / self.duration_s * 60 if self.duration_s > 0 else 0.0
+
+
+def count_false_touches(frames: Iterable[Frame], pipeline: TouchPipeline) -> FalseTouches:
+    """Run frames through the pipeline and count every DOWN; duration runs from the first frame to one frame after the last."""
+    times: list[int] = []
+    downs = patches = with_hands = gate_open = 0
+    for frame in frames:
+        result = pipeline.process(frame)
+        times.append(frame.timestamp_ns)
+        downs += sum(event.type is EventType.DOWN for event in result.events)
+        patches += len(result.patches)
+        with_hands += bool(result.hands)
+        gate_open += result.gate.is_open
+    if times:
+        pipeline.finish(times[-1], CancelReason.SOURCE_ENDED)
+    span_ns = times[-1] - times[0] if len(times) > 1 else 0
+    duration_s = span_ns / 1e9 * (len(times) / max(len(times) - 1, 1))
+    return FalseTouches(len(times), duration_s, downs, patches, with_hands, gate_open)

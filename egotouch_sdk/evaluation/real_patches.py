@@ -1,0 +1,119 @@
+"""Real finger-up pictures with eye labels: reading them and scoring a touch model on them."""
+
+from __future__ import annotations
+
+import csv
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import cv2
+import numpy as np
+import numpy.typing as npt
+
+from egotouch_sdk.errors import SourceError
+from egotouch_sdk.evaluation.darkness import darkness
+from egotouch_sdk.evaluation.metrics import auroc, spearman, touch_scores
+from egotouch_sdk.joints import Finger, Handedness
+from egotouch_sdk.observation import FingertipPatch, TouchEstimate
+from egotouch_sdk.patches import HOST_UNKNOWN, cut_patch
+from egotouch_sdk.touch import TouchModel
+
+LABELS_FILE = "labels.csv"
+COLUMNS = ("file", "recording", "frame", "label", "label_confidence", "force_sensor_counts")
+#: Patches per call of the model.
+BATCH = 64
+
+
+@dataclass(frozen=True, slots=True)
+class RealPatch:
+    """One labelled picture. `sensor_counts` is the raw force sensor reading, nan where there is none."""
+
+    file: str
+    recording: str
+    touch: bool
+    sensor_counts: float
+    image: npt.NDArray[np.uint8]
+
+
+def read_real_patches(
+    folder: Path, tip_px: tuple[float, float], px_per_mm: float, min_confidence: float, finger_up: tuple[float, float] = (0.0, -1.0)
+) -> list[RealPatch]:
+    """Pictures of a folder with `labels.csv`, labelled touch or hover with at least the given confidence, cut around the tip.
+
+    The pictures lie in the folder itself or in its `image` folder. `tip_px` is the TIP landmark in every picture, `px_per_mm` its scale.
+    Raises `SourceError` for a missing file or column, an unreadable picture, or when nothing is left.
+    """
+    table = folder / LABELS_FILE
+    if not table.is_file():
+        raise SourceError(f"there is no {LABELS_FILE} in {folder}", hint=f"It needs the columns {', '.join(COLUMNS)}")
+    with table.open(newline="", encoding="utf-8") as file:
+        reader = csv.DictReader(file)
+        missing = sorted(set(COLUMNS) - set(reader.fieldnames or ()))
+        if missing:
+            raise SourceError(f"{table} lacks the columns {', '.join(missing)}")
+        rows = [row for row in reader if row["label"] in ("touch", "hover") and _number(row["label_confidence"]) >= min_confidence]
+    if not rows:
+        raise SourceError(f"{table} has no touch or hover labelled with confidence {min_confidence} or more")
+    return [
+        RealPatch(
+            row["file"],
+            row["recording"],
+            row["label"] == "touch",
+            _number(row["force_sensor_counts"]),
+            cut_patch(_read(folder, row["file"]), tip_px, finger_up, px_per_mm, False),
+        )
+        for row in rows
+    ]
+
+
+def estimate_all(patches: Sequence[RealPatch], model: TouchModel) -> list[TouchEstimate]:
+    """The model's answers, host unknown."""
+    shown = [FingertipPatch(0, Handedness.RIGHT, Finger.THUMB, p.image, *HOST_UNKNOWN, (0.0, 0.0), 1.0) for p in patches]
+    return [estimate for start in range(0, len(shown), BATCH) for estimate in model.estimate(shown[start : start + BATCH])]
+
+
+def real_report(patches: Sequence[RealPatch], estimates: Sequence[TouchEstimate], threshold: float) -> dict[str, Any]:
+    """Scores pooled and per recording, the trivial darkness rule beside the model; shares are 0..1, None where undefined."""
+    recordings = sorted({patch.recording for patch in patches})
+    pairs = list(zip(patches, estimates, strict=True))
+    report = {name: _scores([pair for pair in pairs if pair[0].recording == name], threshold) for name in recordings}
+    return {"threshold": threshold, "pooled": _scores(pairs, threshold), "recordings": report}
+
+
+def _scores(pairs: Sequence[tuple[RealPatch, TouchEstimate]], threshold: float) -> dict[str, Any]:
+    touch = np.array([patch.touch for patch, _ in pairs])
+    counts = np.array([patch.sensor_counts for patch, _ in pairs])
+    probability = np.array([estimate.touch_probability for _, estimate in pairs])
+    force_n = np.array([estimate.force_n for _, estimate in pairs])
+    rule = darkness(np.stack([patch.image for patch, _ in pairs]))
+    scores: dict[str, Any] = {"touches": int(touch.sum()), "hovers": int((~touch).sum())}
+    if touch.any() and not touch.all():
+        model = touch_scores(touch, probability, threshold)
+        scores["auroc"], scores["darkness_auroc"] = round(model.auroc, 4), round(auroc(touch, rule), 4)
+        scores["true_positive_rate"] = round(model.true_positive_rate, 4)
+        scores["false_positive_rate"] = round(model.false_positive_rate, 4)
+    scores["accuracy"] = round(float(((probability >= threshold) == touch).mean()), 4)
+    measured = touch & np.isfinite(counts)
+    correlation = spearman(force_n[measured], counts[measured])
+    scores["force_spearman"] = None if math.isnan(correlation) else round(correlation, 4)
+    return scores
+
+
+def _number(text: str | None) -> float:
+    try:
+        return float(text or "nan")
+    except ValueError:
+        return float("nan")
+
+
+def _read(folder: Path, name: str) -> npt.NDArray[np.uint8]:
+    for path in (folder / name, folder / "image" / name):
+        if path.is_file():
+            image = cv2.imread(str(path), cv2.IMREAD_COLOR)
+            if image is None:
+                raise SourceError(f"{path} is not a readable picture", hint="Delete its row or replace the file")
+            return np.asarray(image, np.uint8)
+    raise SourceError(f"{name} is in {LABELS_FILE} but not in {folder} or its image folder")

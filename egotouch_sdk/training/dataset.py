@@ -1,0 +1,99 @@
+"""Turns rendered patches into training batches: a fresh random camera for every view of every patch."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from math import pi
+from typing import NamedTuple
+
+import cv2
+import numpy as np
+import numpy.typing as npt
+import torch
+from torch import Tensor
+from torch.utils.data import Dataset, Sampler
+
+from egotouch_sdk.patches import HOST_UNKNOWN, normalise
+from egotouch_sdk.synthetic.camera import photograph_randomly
+from egotouch_sdk.training.shards import RenderedPatch
+
+#: Share of training samples whose host place is withheld, so that the model also works when the host is unknown.
+HOST_UNKNOWN_SHARE = 0.5
+#: Spread of the tracker's error on R (relative) and theta (radians) in training (our choice).
+POLAR_JITTER = (0.05, 0.06)
+#: Share of mirrored training samples, their theta negated.
+FLIP_SHARE = 0.5
+
+
+class Sample(NamedTuple):
+    """Tensors of one sample or one batch: `patch` (3, 100, 100), `polar` (2,), `touch`, `force_n`, `hover_mm` scalars."""
+
+    patch: Tensor
+    polar: Tensor
+    touch: Tensor
+    force_n: Tensor
+    hover_mm: Tensor
+
+
+def view(rendered: RenderedPatch, rng: np.random.Generator) -> tuple[npt.NDArray[np.uint8], tuple[float, float]]:
+    """One camera picture, uint8 (100, 100, 3) RGB, with its (r_palms, theta_rad)."""
+    image = photograph_randomly(rendered.layers, rng)
+    label = rendered.label
+    r_palms = label.r_palms * float(np.exp(rng.normal(0, POLAR_JITTER[0])))
+    theta_rad = label.theta_rad + float(rng.normal(0, POLAR_JITTER[1]))
+    if rng.random() < FLIP_SHARE:
+        image, theta_rad = np.ascontiguousarray(image[:, ::-1]), -theta_rad
+    if rng.random() < HOST_UNKNOWN_SHARE:
+        return image, HOST_UNKNOWN
+    return image, (r_palms, (theta_rad + pi) % (2 * pi) - pi)
+
+
+class PatchDataset(Dataset[Sample]):
+    """Item (index, seed) is patch `index` seen by the random camera of `seed`."""
+
+    def __init__(self, rendered: Sequence[RenderedPatch]) -> None:
+        self.rendered = rendered
+
+    def __len__(self) -> int:
+        return len(self.rendered)
+
+    def __getitem__(self, key: tuple[int, int]) -> Sample:
+        cv2.setNumThreads(1)
+        index, seed = key
+        rendered = self.rendered[index]
+        image, polar = view(rendered, np.random.default_rng(seed))
+        label = rendered.label
+        return Sample(
+            patch=torch.from_numpy(normalise(image[None])[0]),
+            polar=torch.tensor(polar, dtype=torch.float32),
+            touch=torch.tensor(float(label.touch)),
+            force_n=torch.tensor(label.force_n),
+            hover_mm=torch.tensor(label.hover_mm),
+        )
+
+
+class SeededOrder(Sampler[tuple[int, int]]):
+    """Every patch once per epoch in random order, with a camera seed that depends on run seed, epoch and position only."""
+
+    def __init__(self, count: int, seed: int) -> None:
+        self.count, self.seed, self.epoch = count, seed, 0
+
+    def __len__(self) -> int:
+        return self.count
+
+    def __iter__(self) -> Iterator[tuple[int, int]]:
+        rng = np.random.default_rng([self.seed, self.epoch])
+        seeds = rng.integers(0, 2**62, self.count)
+        yield from ((int(i), int(s)) for i, s in zip(rng.permutation(self.count), seeds, strict=True))
+
+
+def collate(samples: Sequence[Sample]) -> Sample:
+    """Stack samples into a batch."""
+    return Sample(*(torch.stack(column) for column in zip(*samples, strict=True)))
+
+
+def fixed_views(rendered: Sequence[RenderedPatch], views: int, seed: int) -> tuple[list[int], Sample]:
+    """The held-out pictures: `views` fixed random cameras per patch, as patch indices and one batch."""
+    keys = [(i, int(np.random.default_rng([seed, i, v]).integers(2**62))) for v in range(views) for i in range(len(rendered))]
+    dataset = PatchDataset(rendered)
+    return [index for index, _ in keys], collate([dataset[key] for key in keys])

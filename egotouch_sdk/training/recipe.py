@@ -1,0 +1,58 @@
+"""Every choice of a training run, in one frozen object that goes into the manifest."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from egotouch_sdk.errors import ConfigError
+
+
+@dataclass(frozen=True, slots=True)
+class Recipe:
+    """Settings of one training run.
+
+    `Recipe.paper()` is the paper's: Adam 3e-4, batch 128, 8 epochs, weighted binary cross-entropy + 5 x squared force error
+    (EgoTouch, UIST'24, section 4). The defaults keep its loss and batch and add what a small rendered set needs.
+    `epochs` counts passes over the renders, every pass with new cameras. Over `warmup_share` of the steps the learning rate
+    rises, then it falls along a cosine. `average_decay` is the decay per step of the averaged weights that are shipped, 0 for none.
+    `label_smoothing` moves targets towards one half. `hover_weight` weighs an auxiliary hover-height output, dropped on export.
+    `held_out_share` of the patches, whole participants, choose the threshold and never train.
+    """
+
+    epochs: int = 16
+    batch: int = 128
+    learning_rate: float = 2e-3
+    weight_decay: float = 0.05
+    warmup_share: float = 0.1
+    force_weight: float = 5.0
+    hover_weight: float = 2.0
+    label_smoothing: float = 0.04
+    drop_path: float = 0.05
+    dropout: float = 0.1
+    average_decay: float = 0.998
+    held_out_share: float = 0.12
+    held_out_views: int = 2
+    seed: int = 1
+
+    def __post_init__(self) -> None:
+        if self.epochs < 1 or self.batch < 2 or self.held_out_views < 1:
+            counts = f"epochs={self.epochs}, batch={self.batch}, held_out_views={self.held_out_views}"
+            raise ConfigError(f"recipe has {counts}; need 1, 2, 1 or more")
+        if self.learning_rate <= 0 or min(self.weight_decay, self.force_weight, self.hover_weight) < 0:
+            raise ConfigError("recipe has a learning rate that is not positive or a negative weight")
+        for name in ("warmup_share", "label_smoothing", "drop_path", "dropout", "average_decay", "held_out_share"):
+            if not 0.0 <= getattr(self, name) < 1.0:
+                raise ConfigError(f"recipe has {name}={getattr(self, name)}, need 0 or more and below 1")
+
+    @classmethod
+    def paper(cls) -> Recipe:
+        """The paper's own recipe, without our additions."""
+        return cls(
+            epochs=8, learning_rate=3e-4, weight_decay=0.0, warmup_share=0.0, hover_weight=0.0,
+            label_smoothing=0.0, drop_path=0.0, dropout=0.0, average_decay=0.0,
+        )  # fmt: skip
+
+    def to_dict(self) -> dict[str, Any]:
+        """JSON-ready fields."""
+        return asdict(self)

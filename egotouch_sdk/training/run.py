@@ -1,0 +1,191 @@
+"""One training run from a folder of shards to an exported model."""
+
+from __future__ import annotations
+
+import copy
+from dataclasses import dataclass
+from datetime import timedelta
+from pathlib import Path
+from typing import Any
+
+import lightning
+import numpy as np
+import numpy.typing as npt
+import torch
+from lightning.pytorch.callbacks import ModelCheckpoint
+from torch.utils.data import DataLoader
+
+from egotouch_sdk.errors import ConfigError, SourceError
+from egotouch_sdk.training.calibration import Calibration, calibrate
+from egotouch_sdk.training.dataset import PatchDataset, Sample, SeededOrder, collate, fixed_views
+from egotouch_sdk.training.export import ModelFacts, write_model
+from egotouch_sdk.training.module import TouchModule
+from egotouch_sdk.training.network import TouchNetwork
+from egotouch_sdk.training.recipe import Recipe
+from egotouch_sdk.training.report import held_out_report
+from egotouch_sdk.training.shards import RenderedPatch, held_out, read_folder
+
+#: Pictures per forward pass when scoring.
+SCORING_BATCH = 128
+LAST_CHECKPOINT = "last.ckpt"
+
+
+@dataclass(frozen=True, slots=True)
+class Machine:
+    """What a run may use: compute threads of torch and worker processes that make pictures."""
+
+    threads: int = 2
+    workers: int = 1
+    max_minutes: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Split:
+    """Rendered patches that train and patches of other participants that do not."""
+
+    train: list[RenderedPatch]
+    held_out: list[RenderedPatch]
+
+    @classmethod
+    def of(cls, patches: list[RenderedPatch], recipe: Recipe) -> Split:
+        """Split by participant; raises `SourceError` when a side would lack touches or hovers."""
+        marked = held_out([patch.label for patch in patches], recipe.held_out_share, recipe.seed)
+        split = cls([p for p, m in zip(patches, marked, strict=True) if not m], [p for p, m in zip(patches, marked, strict=True) if m])
+        for name, side in (("training", split.train), ("held-out", split.held_out)):
+            if len({patch.label.touch for patch in side}) < 2:
+                raise SourceError(f"the {name} patches lack touches or hovers", hint="Render more scenes")
+        return split
+
+
+def train(data: Path, out: Path, recipe: Recipe, machine: Machine, *, resume: bool = False, start_from: Path | None = None) -> Path:
+    """Train on the shards in `data`, export to `out` and return the model file's path.
+
+    The last checkpoint is kept in `out` after every epoch and on Ctrl-C; `resume` continues from it. `start_from` is a checkpoint of
+    an earlier run whose weights are the start. Raises `SourceError` for unusable data, `ConfigError` for a missing checkpoint.
+    """
+    torch.set_num_threads(machine.threads)
+    lightning.seed_everything(recipe.seed, verbose=False)
+    patches = read_folder(data)
+    split = Split.of(patches, recipe)
+    module = TouchModule(recipe, float(np.mean([patch.label.touch for patch in split.train])))
+    if start_from is not None:
+        load_weights(module, start_from)
+    _, validation = fixed_views(split.held_out, recipe.held_out_views, recipe.seed)
+    fit(module, split.train, validation, out, machine, resume)
+    return export(module, split, out)
+
+
+def fit(module: TouchModule, train_patches: list[RenderedPatch], validation: Sample, out: Path, machine: Machine, resume: bool) -> None:
+    """Run Lightning's loop; the module is trained in place."""
+    out.mkdir(parents=True, exist_ok=True)
+    checkpoint = out / LAST_CHECKPOINT
+    if resume and not checkpoint.is_file():
+        raise ConfigError(f"there is no checkpoint {checkpoint}", hint="Start without --resume")
+    recipe = module.recipe
+    order = SeededOrder(len(train_patches), recipe.seed)
+    batches = DataLoader(
+        PatchDataset(train_patches), recipe.batch, sampler=order, collate_fn=collate, num_workers=machine.workers,
+        drop_last=len(train_patches) >= 2 * recipe.batch, persistent_workers=False, prefetch_factor=3 if machine.workers else None,
+    )  # fmt: skip
+    trainer = lightning.Trainer(
+        accelerator="cpu",
+        max_epochs=recipe.epochs,
+        max_time=None if machine.max_minutes is None else timedelta(minutes=machine.max_minutes),
+        default_root_dir=out,
+        logger=False,
+        enable_model_summary=False,
+        num_sanity_val_steps=0,
+        gradient_clip_val=1.0,
+        callbacks=[
+            ModelCheckpoint(out, filename="last", save_top_k=1, enable_version_counter=False, save_on_exception=True),
+            _NextEpoch(order),
+            _EpochLines(),
+        ],
+    )
+    trainer.fit(module, batches, _batches_of(validation), ckpt_path=str(checkpoint) if resume else None, weights_only=False)
+    if trainer.interrupted:
+        raise KeyboardInterrupt
+
+
+def load_weights(module: TouchModule, checkpoint: Path) -> None:
+    """Start from an earlier run's shipped weights; raises `ConfigError` when the file is no checkpoint of this network."""
+    if not checkpoint.is_file():
+        raise ConfigError(f"there is no checkpoint {checkpoint}", hint="Check the path given to --start-from")
+    state = torch.load(checkpoint, map_location="cpu", weights_only=False)["state_dict"]
+    averaged = {k.removeprefix("average.module."): v for k, v in state.items() if k.startswith("average.module.")}
+    module.network.load_state_dict(averaged)
+    module.hover_head.load_state_dict({k.removeprefix("hover_head."): v for k, v in state.items() if k.startswith("hover_head.")})
+    module.average.module.load_state_dict(averaged)
+
+
+def export(module: TouchModule, split: Split, out: Path) -> Path:
+    """Calibrate on the held-out renders, write the model with its scores, and return its path."""
+    recipe = module.recipe
+    network = module.shipped_network
+    index, views = fixed_views(split.held_out, recipe.held_out_views, recipe.seed)
+    labels = [split.held_out[i].label for i in index]
+    touch = np.array([label.touch for label in labels])
+    logit, _ = predict(network, views)
+    calibration = calibrate(touch, logit)
+    shipped = calibrated(network, calibration)
+    logit, force_n = predict(shipped, views)
+    measured = held_out_report(labels, 1 / (1 + np.exp(-logit.astype(np.float64))), force_n, calibration.down)
+    training = {
+        "data": "rendered by egotouch_sdk.synthetic; no pictures of people",
+        "patches": len(split.train),
+        "participants": len({p.label.participant for p in split.train}),
+        "scenes": len({p.label.scene for p in split.train}),
+        "held_out_participants": len({p.label.participant for p in split.held_out}),
+        "epochs_done": module.current_epoch,
+        "steps_done": module.global_step,
+        "recipe": recipe.to_dict(),
+        "calibration": {"scale": round(calibration.scale, 4), "shift": round(calibration.shift, 4)},
+        "threshold_from": "held-out rendered participants, best balanced accuracy",
+    }
+    facts = ModelFacts(f"renders-{len(split.train)}", calibration.down, calibration.up, training, {"held_out_renders": measured})
+    return write_model(shipped, facts, out)
+
+
+def calibrated(network: TouchNetwork, calibration: Calibration) -> TouchNetwork:
+    """A copy whose touch logit is already calibrated."""
+    shipped = copy.deepcopy(network)
+    with torch.no_grad():
+        shipped.outputs.weight[0] *= calibration.scale
+        shipped.outputs.bias[0] = shipped.outputs.bias[0] * calibration.scale + calibration.shift
+    return shipped
+
+
+def predict(network: TouchNetwork, views: Sample) -> tuple[npt.NDArray[np.float32], npt.NDArray[np.float32]]:
+    """Touch logits (N,) and forces (N,) in newtons of a batch of any size."""
+    network.eval()
+    with torch.no_grad():
+        parts = [
+            network(views.patch[start : start + SCORING_BATCH], views.polar[start : start + SCORING_BATCH])
+            for start in range(0, len(views.patch), SCORING_BATCH)
+        ]
+    logit, force = (torch.cat(column).numpy() for column in zip(*parts, strict=True))
+    return logit, force
+
+
+def _batches_of(views: Sample) -> DataLoader[Sample]:
+    slices = [slice(i, i + SCORING_BATCH) for i in range(0, len(views.patch), SCORING_BATCH)]
+    chunks = [Sample(*(column[part] for column in views)) for part in slices]
+    return DataLoader(chunks, batch_size=None)
+
+
+class _NextEpoch(lightning.Callback):
+    """Gives every epoch its own order and cameras, also after a resume."""
+
+    def __init__(self, order: SeededOrder) -> None:
+        self.order = order
+
+    def on_train_epoch_start(self, trainer: Any, *_: Any) -> None:
+        self.order.epoch = trainer.current_epoch
+
+
+class _EpochLines(lightning.Callback):
+    """One line of figures per epoch, for logs that are no terminal."""
+
+    def on_train_epoch_end(self, trainer: Any, *_: Any) -> None:
+        figures = " ".join(f"{name} {float(value):.4f}" for name, value in trainer.callback_metrics.items())
+        trainer.print(f"epoch {trainer.current_epoch + 1}/{trainer.max_epochs} {figures}", flush=True)

@@ -1,0 +1,110 @@
+"""Reads rendered shards and splits them so that no person and no scene is on both sides."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+from zipfile import BadZipFile
+
+import numpy as np
+import numpy.typing as npt
+
+from egotouch_sdk.errors import SourceError
+from egotouch_sdk.observation import FORCE_MAX_N
+from egotouch_sdk.synthetic.camera import LightLayers
+
+#: Hover height that stands for "far" in the hover head, in millimetres (upper end of the rendered hovers).
+HOVER_MAX_MM = 30.0
+
+
+@dataclass(frozen=True, slots=True)
+class PatchLabel:
+    """What a rendered patch shows. `hover_mm` is the gap to the skin, 0 while touching; `force_n` is 0 while hovering."""
+
+    touch: bool
+    force_n: float
+    hover_mm: float
+    finger: str
+    place: str
+    participant: int
+    fitzpatrick: int
+    scene: str
+    r_palms: float
+    theta_rad: float
+
+    def __post_init__(self) -> None:
+        if not 0.0 <= self.force_n <= FORCE_MAX_N or self.hover_mm < 0.0 or (self.touch and self.hover_mm > 0.0):
+            values = f"touch={self.touch}, force_n={self.force_n}, hover_mm={self.hover_mm}"
+            raise SourceError(f"label has {values}", hint="Render the shard again")
+
+    @classmethod
+    def from_meta(cls, meta: dict[str, Any]) -> PatchLabel:
+        """Read one entry of a shard's `meta`; raises `SourceError` naming a missing field."""
+        try:
+            touch = bool(meta["touch"])
+            return cls(
+                touch=touch,
+                force_n=min(float(meta["force_n"]), FORCE_MAX_N) if touch else 0.0,
+                hover_mm=0.0 if touch else float(meta["hover_mm"]),
+                finger=str(meta["finger"]),
+                place=str(meta["place"]),
+                participant=int(meta["participant"]),
+                fitzpatrick=int(meta["fitzpatrick"]),
+                scene=str(meta["scene"]),
+                r_palms=float(meta["r_palms"]),
+                theta_rad=float(meta["theta_rad"]),
+            )
+        except KeyError as missing:
+            raise SourceError(f"shard entry lacks {missing}", hint="Render the shard again with this version") from missing
+
+
+@dataclass(frozen=True, slots=True)
+class RenderedPatch:
+    """Light layers with their label."""
+
+    layers: LightLayers
+    label: PatchLabel
+
+
+def read_shard(path: Path) -> list[RenderedPatch]:
+    """All patches of one `.npz` shard; raises `SourceError` when it is not a readable shard."""
+    try:
+        with path.open("rb") as file, np.load(file) as arrays:
+            light, albedo, segment = arrays["light"], arrays["albedo"], arrays["segment"]
+            metas = json.loads(str(arrays["meta"]))
+    except (OSError, ValueError, KeyError, EOFError, BadZipFile) as problem:
+        raise SourceError(f"{path.name} is not a readable shard ({problem})", hint="Delete it and render it again") from problem
+    if len({len(light), len(albedo), len(segment), len(metas)}) != 1:
+        raise SourceError(f"{path.name} holds arrays of different lengths", hint="Delete it and render it again")
+    return [
+        RenderedPatch(LightLayers(light[i], albedo[i], segment[i]), PatchLabel.from_meta(meta))
+        for i, meta in enumerate(metas)
+        if np.isfinite(light[i]).all()
+    ]
+
+
+def read_folder(folder: Path) -> list[RenderedPatch]:
+    """All patches of all shards in a folder, in name order; raises `SourceError` when there are none."""
+    patches = [patch for path in sorted(folder.glob("*.npz")) for patch in read_shard(path)]
+    if not patches:
+        raise SourceError(f"no rendered patches in {folder}", hint="Render some first: egotouch synthesize --help")
+    return patches
+
+
+def held_out(labels: Sequence[PatchLabel], share: float, seed: int) -> npt.NDArray[np.bool_]:
+    """Mark (N,) the patches of whole participants held out until at least `share` of all patches is reached.
+
+    With fewer than three participants whole scenes are held out instead. Participants are taken in seeded random order.
+    """
+    participants = [str(label.participant) for label in labels]
+    groups = np.array(participants if len(set(participants)) >= 3 else [label.scene for label in labels])
+    order = np.random.default_rng(seed).permutation(np.unique(groups))
+    marked = np.zeros(len(labels), bool)
+    for group in order[:-1]:
+        if marked.sum() >= share * len(labels):
+            break
+        marked |= groups == group
+    return marked

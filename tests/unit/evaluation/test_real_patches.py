@@ -1,0 +1,78 @@
+import os
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+
+from egotouch_sdk.errors import SourceError
+from egotouch_sdk.evaluation.real_patches import RealPatch, estimate_all, read_real_patches, real_report
+from egotouch_sdk.joints import Finger
+from egotouch_sdk.observation import TouchEstimate
+from egotouch_sdk.touch import TouchModel
+
+HEADER = "file,recording,frame,label,press_strength,label_confidence,force_sensor_counts\n"
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    (tmp_path / "image").mkdir()
+    picture = np.full((480, 640, 3), 120, np.uint8)
+    picture[:175] = (10, 20, 200)
+    for name in ("a.png", "b.png", "c.png", "d.png"):
+        cv2.imwrite(str(tmp_path / "image" / name), picture)
+    rows = "a.png,one,1,touch,hard,0.9,55\nb.png,one,2,hover,,0.9,0\nc.png,two,3,hover,,0.5,\nd.png,two,4,none,,0.9,\n"
+    (tmp_path / "labels.csv").write_text(HEADER + rows)
+    return tmp_path
+
+
+def test_confident_touches_and_hovers_are_read_and_cut_at_the_tip(folder: Path) -> None:
+    patches = read_real_patches(folder, (316.0, 175.0), 7.3, 0.7)
+    assert [(p.file, p.touch, p.sensor_counts) for p in patches] == [("a.png", True, 55.0), ("b.png", False, 0.0)]
+    image = patches[0].image
+    assert image.shape == (100, 100, 3)
+    assert image[10, 50].tolist() == pytest.approx([200, 20, 10], abs=2)
+    assert image[90, 50].tolist() == pytest.approx([120, 120, 120], abs=2)
+
+
+@pytest.mark.parametrize("damage", ["no_table", "no_column", "nothing_left", "no_picture", "bad_picture"])
+def test_a_damaged_folder_is_named(folder: Path, damage: str) -> None:
+    if damage == "no_table":
+        (folder / "labels.csv").unlink()
+    elif damage == "no_column":
+        (folder / "labels.csv").write_text("file,label\na.png,touch\n")
+    elif damage == "nothing_left":
+        (folder / "labels.csv").write_text(HEADER)
+    elif damage == "no_picture":
+        (folder / "image" / "a.png").unlink()
+    else:
+        (folder / "image" / "a.png").write_text("no picture")
+    with pytest.raises(SourceError):
+        read_real_patches(folder, (316.0, 175.0), 7.3, 0.7)
+
+
+def test_the_report_counts_per_recording_and_pooled() -> None:
+    image = np.zeros((100, 100, 3), np.uint8)
+    rows = [
+        ("one", True, 0.9, 1.0, 10.0),
+        ("one", False, 0.2, 0.0, np.nan),
+        ("two", True, 0.4, 2.0, 20.0),
+        ("two", False, 0.6, 0.0, np.nan),
+    ]
+    patches = [RealPatch("x", name, touch, counts, image) for name, touch, _, _, counts in rows]
+    estimates = [TouchEstimate(0, Finger.THUMB, p, force) for _, _, p, force, _ in rows]
+    report = real_report(patches, estimates, 0.5)
+    assert report["recordings"]["one"]["accuracy"] == 1.0 and report["recordings"]["two"]["accuracy"] == 0.0
+    assert report["pooled"] == {
+        "touches": 2, "hovers": 2, "auroc": 0.75, "darkness_auroc": 0.5, "true_positive_rate": 0.5, "false_positive_rate": 0.5,
+        "accuracy": 0.5, "force_spearman": None,
+    }  # fmt: skip
+
+
+@pytest.mark.real_data
+@pytest.mark.skipif("EGOTOUCH_REAL_DIR" not in os.environ, reason="EGOTOUCH_REAL_DIR is not set")
+def test_the_shipped_model_on_real_thumb_patches() -> None:
+    patches = read_real_patches(Path(os.environ["EGOTOUCH_REAL_DIR"]) / "thumb_patches", (316.0, 175.0), 7.3, 0.7)
+    model = TouchModel()
+    pooled = real_report(patches, estimate_all(patches, model), model.manifest.down_probability)["pooled"]
+    assert pooled["auroc"] >= 0.97 and pooled["accuracy"] >= 0.90

@@ -1,0 +1,94 @@
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+torch = pytest.importorskip("torch")
+
+from egotouch_sdk.errors import SourceError  # noqa: E402
+from egotouch_sdk.training.dataset import PatchDataset, SeededOrder, collate, fixed_views, view  # noqa: E402
+from egotouch_sdk.training.shards import held_out, read_folder, read_shard  # noqa: E402
+
+
+def test_a_folder_is_read_whole(shard_folder: Path) -> None:
+    patches = read_folder(shard_folder)
+    assert len(patches) == 48
+    assert {p.label.participant for p in patches} == {0, 1, 2, 3}
+    assert all((p.label.force_n > 0) == p.label.touch for p in patches)
+
+
+@pytest.mark.parametrize("damage", ["text", "half", "no_field", "lengths"])
+def test_a_damaged_shard_is_named(shard_folder: Path, tmp_path: Path, damage: str) -> None:
+    good, bad = shard_folder / "shard-0.npz", tmp_path / "bad.npz"
+    arrays = dict(np.load(good))
+    metas = json.loads(str(arrays["meta"]))
+    if damage == "text":
+        bad.write_text("not a shard")
+    elif damage == "half":
+        bad.write_bytes(good.read_bytes()[:5000])
+    elif damage == "no_field":
+        del metas[0]["place"]
+        np.savez(bad, **{**arrays, "meta": np.array(json.dumps(metas))})
+    else:
+        np.savez(bad, **{**arrays, "albedo": arrays["albedo"][1:]})
+    with pytest.raises(SourceError):
+        read_shard(bad)
+
+
+def test_an_empty_folder_says_how_to_fill_it(tmp_path: Path) -> None:
+    with pytest.raises(SourceError, match="Render some first"):
+        read_folder(tmp_path)
+
+
+def test_no_participant_is_on_both_sides(shard_folder: Path) -> None:
+    labels = [p.label for p in read_folder(shard_folder)]
+    marked = held_out(labels, 0.3, seed=5)
+    inside = {label.participant for label, m in zip(labels, marked, strict=True) if m}
+    outside = {label.participant for label, m in zip(labels, marked, strict=True) if not m}
+    assert inside and outside and not inside & outside
+    assert marked.mean() >= 0.3
+
+
+def test_with_two_participants_whole_scenes_are_held_out(shard_folder: Path) -> None:
+    labels = [p.label for p in read_folder(shard_folder) if p.label.participant < 2]
+    marked = held_out(labels, 0.3, seed=5)
+    sides = [{label.scene for label, m in zip(labels, marked, strict=True) if m == side} for side in (True, False)]
+    assert all(sides) and not sides[0] & sides[1]
+
+
+def test_a_view_depends_on_its_seed_alone(shard_folder: Path) -> None:
+    dataset = PatchDataset(read_folder(shard_folder)[:2])
+    first, again, other = dataset[0, 7], dataset[0, 7], dataset[0, 8]
+    assert torch.equal(first.patch, again.patch) and torch.equal(first.polar, again.polar)
+    assert not torch.equal(first.patch, other.patch)
+    assert first.patch.shape == (3, 100, 100) and abs(float(first.patch.mean())) < 1e-3
+
+
+def test_half_of_the_views_know_the_host_and_mirroring_negates_theta(shard_folder: Path) -> None:
+    rendered = read_folder(shard_folder)[0]
+    polars = np.array([view(rendered, np.random.default_rng(seed))[1] for seed in range(300)])
+    unknown = (polars == 0).all(1)
+    assert 0.4 < unknown.mean() < 0.6
+    known = polars[~unknown]
+    assert known[:, 0].mean() == pytest.approx(rendered.label.r_palms, rel=0.05)
+    assert 0.35 < (known[:, 1] < 0).mean() < 0.65
+    assert np.abs(known[:, 1]).mean() == pytest.approx(rendered.label.theta_rad, abs=0.05)
+
+
+def test_every_epoch_visits_every_patch_once_with_new_cameras() -> None:
+    order = SeededOrder(50, seed=3)
+    first, again = list(order), list(order)
+    order.epoch = 1
+    second = list(order)
+    assert first == again
+    assert sorted(i for i, _ in first) == sorted(i for i, _ in second) == list(range(50))
+    assert not {s for _, s in first} & {s for _, s in second}
+
+
+def test_fixed_views_are_fixed(shard_folder: Path) -> None:
+    rendered = read_folder(shard_folder)[:3]
+    index, batch = fixed_views(rendered, views=2, seed=1)
+    assert index == [0, 1, 2, 0, 1, 2] and batch.patch.shape == (6, 3, 100, 100)
+    assert torch.equal(batch.patch, fixed_views(rendered, views=2, seed=1)[1].patch)
+    assert torch.equal(collate([PatchDataset(rendered)[0, 5]]).patch[0], PatchDataset(rendered)[0, 5].patch)

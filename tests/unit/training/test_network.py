@@ -1,0 +1,87 @@
+import pytest
+
+torch = pytest.importorskip("torch")
+
+from egotouch_sdk.training.network import FoldableConv, RepMixer, TouchNetwork, count_parameters, reparameterise  # noqa: E402
+
+
+def lived_in(network: torch.nn.Module) -> torch.nn.Module:
+    """Weights and running statistics as after training, so that folding has something to get wrong."""
+    torch.manual_seed(0)
+    for module in network.modules():
+        if isinstance(module, torch.nn.BatchNorm2d):
+            module.running_mean.normal_(0, 0.3)
+            module.running_var.uniform_(0.3, 2.0)
+            torch.nn.init.uniform_(module.weight, 0.7, 1.5)
+            torch.nn.init.normal_(module.bias, 0, 0.3)
+    return network.eval()
+
+
+def inputs(count: int = 3) -> tuple[torch.Tensor, torch.Tensor]:
+    torch.manual_seed(1)
+    return torch.randn(count, 3, 100, 100), torch.rand(count, 2)
+
+
+@pytest.mark.parametrize(
+    "block",
+    [
+        FoldableConv(6, 6, (3, 1), groups=6, skip=True),
+        FoldableConv(6, 12, (7, 3), stride=2, groups=6),
+        FoldableConv(6, 6, (1,), skip=True),
+        RepMixer(6),
+    ],
+    ids=["depthwise", "downsample", "pointwise", "mixer"],
+)
+def test_a_folded_block_gives_the_same_output(block: torch.nn.Module) -> None:
+    lived_in(block)
+    x = torch.randn(2, 6, 13, 13)
+    with torch.no_grad():
+        before = block(x)
+        block.fold()
+        after = block(x)
+    assert before.std() > 0.1
+    torch.testing.assert_close(after, before, atol=1e-4, rtol=1e-4)
+
+
+def test_folding_the_network_keeps_its_outputs_and_drops_every_batch_norm() -> None:
+    network = lived_in(TouchNetwork())
+    shipped = reparameterise(network)
+    with torch.no_grad():
+        for expected, got in zip(network(*inputs()), shipped(*inputs()), strict=True):
+            torch.testing.assert_close(got, expected, atol=1e-4, rtol=1e-4)
+    assert not [m for m in shipped.modules() if isinstance(m, torch.nn.BatchNorm2d)]
+
+
+def test_parameter_counts() -> None:
+    network = TouchNetwork()
+    assert count_parameters(network) == 3_370_896
+    assert count_parameters(reparameterise(network)) == 3_338_880
+
+
+def test_the_patch_and_the_place_both_reach_both_outputs() -> None:
+    network = lived_in(TouchNetwork())
+    patch, polar = inputs()
+    with torch.no_grad():
+        base = network.embed(patch, polar)
+        assert not torch.allclose(base, network.embed(patch + torch.randn_like(patch), polar))
+        assert not torch.allclose(base, network.embed(patch, polar + 1))
+
+
+def test_force_is_in_range_only_once_training_is_over() -> None:
+    network = lived_in(TouchNetwork())
+    torch.nn.init.constant_(network.outputs.bias, 7.0)
+    with torch.no_grad():
+        assert network(*inputs())[1].max() <= 3.5
+        assert network.train()(*inputs())[1].max() > 3.5
+
+
+def test_the_fast_layout_trains_without_changing_the_outputs() -> None:
+    network = lived_in(TouchNetwork())
+    with torch.no_grad():
+        expected = network(*inputs())
+        got = network.use_fast_layout()(*inputs())
+    for e, g in zip(expected, got, strict=True):
+        torch.testing.assert_close(g, e, atol=1e-4, rtol=1e-4)
+    logit, force = network.train()(*inputs())
+    (logit.sum() + force.sum()).backward()
+    assert all(p.grad is not None and torch.isfinite(p.grad).all() for p in network.parameters())

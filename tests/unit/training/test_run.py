@@ -1,0 +1,50 @@
+import json
+from pathlib import Path
+
+import pytest
+
+torch = pytest.importorskip("torch")
+pytest.importorskip("lightning")
+pytest.importorskip("onnx")
+
+from egotouch_sdk.errors import ConfigError, SourceError  # noqa: E402
+from egotouch_sdk.touch import TouchModel  # noqa: E402
+from egotouch_sdk.training.recipe import Recipe  # noqa: E402
+from egotouch_sdk.training.run import Machine, Split, train  # noqa: E402
+from egotouch_sdk.training.shards import read_folder  # noqa: E402
+
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.filterwarnings(
+        "ignore::DeprecationWarning", "ignore::UserWarning", "ignore::FutureWarning", "ignore::torch.jit.TracerWarning"
+    ),
+]
+TINY = Recipe(epochs=1, batch=8, held_out_views=1, held_out_share=0.2)
+
+
+def test_train_export_and_resume(shard_folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    machine = Machine(threads=1, workers=0)
+    model = train(shard_folder, tmp_path, TINY, machine)
+    manifest = json.loads(model.with_suffix(".json").read_text())
+    assert manifest["training"]["steps_done"] == 4 and manifest["training"]["participants"] == 3
+    assert 0 <= manifest["measured"]["held_out_renders"]["auroc"] <= 1
+    TouchModel(model)
+
+    longer = Recipe(epochs=2, batch=8, held_out_views=1, held_out_share=0.2)
+    resumed = json.loads(train(shard_folder, tmp_path, longer, machine, resume=True).with_suffix(".json").read_text())
+    assert resumed["training"]["steps_done"] == 8
+
+    fresh = tmp_path / "fresh"
+    train(shard_folder, fresh, TINY, machine, start_from=tmp_path / "last.ckpt")
+    assert (fresh / "touch.onnx").is_file()
+
+
+def test_nothing_to_resume(shard_folder: Path, tmp_path: Path) -> None:
+    with pytest.raises(ConfigError, match="no checkpoint"):
+        train(shard_folder, tmp_path, TINY, Machine(1, 0), resume=True)
+
+
+def test_a_side_without_touches_is_refused(shard_folder: Path) -> None:
+    hovers = [patch for patch in read_folder(shard_folder) if not patch.label.touch]
+    with pytest.raises(SourceError, match="lack touches"):
+        Split.of(hovers, TINY)
