@@ -1,8 +1,7 @@
-"""21 landmarks of each hand inside given regions: MediaPipe's hand landmark network."""
+"""21 landmarks of the hand inside a given region: MediaPipe's hand landmark network."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import cv2
@@ -37,26 +36,19 @@ class LocatedHand:
 
 
 class Landmarker:
-    """Runs the landmark network on all regions of one image in one batch."""
+    """Runs the landmark network on one region at a time; may be called from several threads at once."""
 
-    def __init__(self, model: str = "hand_landmark_full", threads: int = 1) -> None:
-        self._session = create_session(hand_model(model), threads)
+    def __init__(self, model: str = "hand_landmark_full") -> None:
+        self._session = create_session(hand_model(model))
 
-    def locate(self, image: Image, rois: Sequence[Roi]) -> list[LocatedHand]:
-        """One answer per region, in order; look at `presence` before you use it."""
-        if not rois:
-            return []
-        crops = np.empty((len(rois), INPUT_PX, INPUT_PX, 3), np.uint8)
-        for crop, roi in zip(crops, rois, strict=True):
-            matrix = crop_matrix(roi, INPUT_PX)
-            cv2.warpAffine(image, matrix, (INPUT_PX, INPUT_PX), dst=crop, flags=cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
-        landmarks, presence, handedness, world = self._session.run(_OUTPUTS, {"image": crops})
-        return [
-            LocatedHand(
-                landmarks_to_image(landmarks[i].reshape(NUM_JOINTS, 3), roi, INPUT_PX),
-                world_to_image_axes(world[i].reshape(NUM_JOINTS, 3) * _MM_PER_M, roi),
-                float(presence[i, 0]),
-                float(handedness[i, 0]),
-            )
-            for i, roi in enumerate(rois)
-        ]
+    def locate(self, image: Image, roi: Roi) -> LocatedHand:
+        """The hand in this region of a BGR image; look at `presence` before you use it."""
+        matrix = crop_matrix(roi, INPUT_PX)
+        crop = cv2.warpAffine(image, matrix, (INPUT_PX, INPUT_PX), flags=cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
+        landmarks, presence, handedness, world = self._session.run(_OUTPUTS, {"image": crop[None]})
+        return LocatedHand(
+            landmarks_to_image(landmarks.reshape(NUM_JOINTS, 3), roi, INPUT_PX),
+            world_to_image_axes(world.reshape(NUM_JOINTS, 3) * _MM_PER_M, roi),
+            float(presence[0, 0]),
+            float(handedness[0, 0]),
+        )

@@ -75,8 +75,8 @@ def decode(raw_boxes: FloatArray, logits: FloatArray, anchors: FloatArray, min_s
 class PalmDetector:
     """Finds palms anywhere in a BGR image; those below `min_score` (0..1) are dropped."""
 
-    def __init__(self, model: str = "palm_detection_full", threads: int = 1, min_score: float = 0.5) -> None:
-        self._session = create_session(hand_model(model), threads)
+    def __init__(self, model: str = "palm_detection_full", min_score: float = 0.5) -> None:
+        self._session = create_session(hand_model(model))
         self._anchors = make_anchors()
         self._min_score = min_score
 

@@ -31,18 +31,14 @@ class Scene:
         palms = [landmarks[PALM_JOINTS, :2].astype(float) for landmarks, _ in self.hands.values()]
         return [PalmDetection(bounding_box(p), p, 0.9) for p in palms]
 
-    def locate(self, image, rois):
-        answers = []
-        for roi in rois:
-            near = [
-                (np.hypot(at.x_px - roi.x_px, at.y_px - roi.y_px), lm, right)
-                for lm, right in self.hands.values()
-                for at in [roi_from_landmarks(lm)]
-            ]
-            distance, landmarks, right = min(near, key=lambda item: item[0], default=(np.inf, flat_hand(), 0.5))
-            presence = 0.95 if distance < roi.size_px / 3 else 0.05
-            answers.append(LocatedHand(landmarks, np.zeros((21, 3), np.float32), presence, right))
-        return answers
+    def locate(self, image, roi):
+        near = [
+            (np.hypot(at.x_px - roi.x_px, at.y_px - roi.y_px), lm, right)
+            for lm, right in self.hands.values()
+            for at in [roi_from_landmarks(lm)]
+        ]
+        distance, landmarks, right = min(near, key=lambda item: item[0], default=(np.inf, flat_hand(), 0.5))
+        return LocatedHand(landmarks, np.zeros((21, 3), np.float32), 0.95 if distance < roi.size_px / 3 else 0.05, right)
 
 
 @pytest.fixture
@@ -76,9 +72,10 @@ def test_it_is_a_hand_source(scene):
     assert isinstance(HandTracker(), HandSource)
 
 
-def test_two_hands_get_their_sides(scene):
+@pytest.mark.parametrize("threads", [1, 2])
+def test_two_hands_get_their_sides(scene, threads):
     scene.hands = {"a": RIGHT, "b": LEFT}
-    hands = Player().step()
+    hands = Player(threads=threads).step()
     assert sorted(str(h.handedness) for h in hands) == ["left", "right"]
     right = next(h for h in hands if h.handedness == "right")
     assert np.array_equal(right.landmarks_px, RIGHT[0])
@@ -196,7 +193,7 @@ def test_another_frame_size_starts_afresh(scene):
 
 
 @pytest.mark.parametrize(
-    "settings", [{"max_hands": 3}, {"palm_every": 0}, {"coast_ms": -1}, {"min_presence": 1.0}, {"min_palm_score": 0.0}]
+    "settings", [{"max_hands": 3}, {"threads": 0}, {"palm_every": 0}, {"coast_ms": -1}, {"min_presence": 1.0}, {"min_palm_score": 0.0}]
 )
 def test_wrong_settings_are_refused(settings):
     with pytest.raises(ConfigError):
