@@ -6,7 +6,7 @@ import functools
 import os
 import re
 import warnings
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -26,6 +26,7 @@ Image = npt.NDArray[np.float32]
 #: One grey for every surface in the light pass; near skin's mean reflectance in red and green (II-IV).
 _GREY = 0.45
 _MAX_DEPTH = 3
+_MARKED = 0.5
 SEGMENT_BACKGROUND, SEGMENT_HOST, SEGMENT_TOUCHING = 0, 1, 2
 #: drjit 1.5 aborts on LLVM 15 ("Cannot select: fminimum"); newer ones work (measured).
 _LLVM_GLOBS = ("lib/llvm-*/lib/libLLVM*.so*", "lib/*/libLLVM*.so*")
@@ -193,6 +194,19 @@ def _scene(mi: Any, host: Surface, touching: Surface, lights: Lights, focus: Arr
     )
 
 
+def _paint(params: Any, colours: Mapping[str, tuple[float, float, float]]) -> None:
+    """Give whole surfaces one colour each: the shape index that Mitsuba reports is not stable from scene to scene."""
+    for key in dict(params):
+        name = key.split(".")[0]
+        if name in colours and key.endswith(("vertex_color", ".data")):
+            params[key] = (
+                np.broadcast_to(np.float32(colours[name]), (*np.array(params[key]).shape[:-1], 3)).copy()
+                if key.endswith(".data")
+                else np.tile(np.float32(colours[name]), len(params[key]) // 3)
+            )
+    params.update()
+
+
 def render_layers(
     host: Surface,
     touching: Surface,
@@ -212,33 +226,26 @@ def render_layers(
     mi = mitsuba()
     scene = _scene(mi, host, touching, lights, focus, backdrop, cameras)
     look = mi.load_dict({"type": "aov", "aovs": "al:albedo"})
-    shape = mi.load_dict({"type": "aov", "aovs": "si:shape_index,dd:depth"})
+    depth = np.array(mi.render(scene, integrator=mi.load_dict({"type": "aov", "aovs": "dd:depth"}), spp=1, seed=seed))[..., 0]
     albedo = np.array(mi.render(scene, integrator=look, spp=8, seed=seed))[..., :3]
-    ids = np.array(mi.render(scene, integrator=shape, spp=1, seed=seed + 1))
     params = mi.traverse(scene)
-    grey = [key for key in dict(params) if key.endswith("vertex_color")]
-    for key in grey:
-        params[key] = np.full(len(params[key]), _GREY, np.float32)
-    texture = next(key for key in dict(params) if key.startswith("backdrop") and key.endswith("data"))
-    params[texture] = np.full(np.array(params[texture]).shape, _GREY, np.float32)
-    params.update()
+    _paint(params, {"host": (1.0, 0.0, 0.0), "touching": (0.0, 1.0, 0.0), "backdrop": (0.0, 0.0, 1.0)})
+    markers = np.array(mi.render(scene, integrator=look, spp=1, seed=seed))[..., :3]
+    segment = np.array([SEGMENT_HOST, SEGMENT_TOUCHING, SEGMENT_BACKGROUND], np.uint8)[markers.argmax(-1)]
+    segment[markers.max(-1) < _MARKED] = SEGMENT_BACKGROUND
+    _paint(params, dict.fromkeys(("host", "touching", "backdrop"), (_GREY, _GREY, _GREY)))
     path = mi.load_dict({"type": "path", "max_depth": _MAX_DEPTH, "hide_emitters": False})
     light = np.array(mi.render(scene, integrator=path, spp=samples, seed=seed + 2))[..., :3] / _GREY
-    names = [shape_.id() for shape_ in scene.shapes()]
-    lookup = np.zeros(len(names) + 2, np.uint8)
-    for i, name in enumerate(names):
-        lookup[i] = {"host": SEGMENT_HOST, "touching": SEGMENT_TOUCHING}.get(name, SEGMENT_BACKGROUND)
-    segment = lookup[np.clip(np.round(ids[..., 0]).astype(int), 0, len(names) + 1)]
     width = cameras[0].width_px
     views = []
     for i in range(len(cameras)):
         cut = np.s_[:, i * width : (i + 1) * width]
         views.append(
             Layers(
-                _smooth(light[cut], ids[cut][..., 1], segment[cut], px_per_mm),
+                _smooth(light[cut], depth[cut], segment[cut], px_per_mm),
                 albedo[cut].astype(np.float32),
                 segment[cut],
-                ids[cut][..., 1].astype(np.float32),
+                depth[cut].astype(np.float32),
             )
         )
     return views
