@@ -8,7 +8,11 @@ PYTHON ?= $(shell for p in python3 python3.13 python3.12 python3.11; do \
 # Options for pytest, for example `make test PYTEST_ARGS="-k sources -x"`.
 PYTEST_ARGS ?= -n 2 --dist loadfile -q
 
-.PHONY: help demo test lint bench clean
+# The hand networks are made while the package is installed; when they are gone, install again.
+HANDS := egotouch_sdk/models/hands/manifest.json
+AGAIN := $(if $(wildcard $(HANDS)),,FORCE)
+
+.PHONY: help demo test lint bench clean FORCE
 .DEFAULT_GOAL := help
 
 help: ## list the targets
@@ -35,10 +39,12 @@ $(BIN)/python:
 	@test -n "$(PYTHON)" || { echo "No Python >= 3.11 found. Install one, or run: make PYTHON=/path/to/python3.11 $(MAKECMDGOALS)" >&2; exit 1; }
 	$(PYTHON) -m venv $(VENV)
 
-$(VENV)/.run: $(BIN)/python pyproject.toml hatch_build.py
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable .
+$(VENV)/.run: $(BIN)/python pyproject.toml hatch_build.py $(AGAIN)
+	@echo "Installing the package and its hand tracking networks into $(VENV) (about a minute) ..."
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable .
 	@touch $@
 
-$(VENV)/.dev: $(BIN)/python pyproject.toml hatch_build.py
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[dev]'
+$(VENV)/.dev: $(BIN)/python pyproject.toml hatch_build.py $(AGAIN)
+	@echo "Installing the package with its development tools into $(VENV) (about a minute) ..."
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[dev]'
 	@touch $@ $(VENV)/.run

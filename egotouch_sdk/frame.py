@@ -28,11 +28,13 @@ class Frame:
     def __post_init__(self) -> None:
         image: object = self.image
         if not isinstance(image, np.ndarray) or image.ndim != 3 or image.shape[2] != 3:
-            raise FrameError(f"frame image has shape {getattr(image, 'shape', None)}, need (height, width, 3)", hint="Convert it to BGR first")
+            shape = getattr(image, "shape", None)
+            raise FrameError(f"frame image has shape {shape}, need (height, width, 3)", hint="Convert it to BGR first")
         if image.dtype != np.uint8:
             raise FrameError(f"frame image is {image.dtype}, need uint8", hint="Scale it to 0..255 and convert with astype(np.uint8)")
         if min(image.shape[:2]) < MIN_SIDE_PX:
-            raise FrameError(f"frame image is {image.shape[1]}x{image.shape[0]} px, need at least {MIN_SIDE_PX} px a side", hint="Use a larger image")
+            size = f"{image.shape[1]}x{image.shape[0]}"
+            raise FrameError(f"frame image is {size} px, need at least {MIN_SIDE_PX} px a side", hint="Use a larger image")
         if self.timestamp_ns < 0 or self.index < 0:
             raise FrameError(f"frame has timestamp_ns={self.timestamp_ns}, index={self.index}; both must be >= 0")
 
