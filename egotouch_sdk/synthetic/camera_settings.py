@@ -88,16 +88,16 @@ def draw_settings(rng: np.random.Generator) -> CameraSettings:
         native_px=_native_px(rng),
         finger_motion_px=_motion(rng, share=0.3, longest_px=14.0),
         camera_motion_px=_motion(rng, share=0.15, longest_px=6.0),
-        optical_blur_px=float(rng.uniform(0.5, 2.5)),
+        optical_blur_px=float(rng.uniform(0.4, 2.0)),
         skin_level=exp(rng.uniform(log(0.10), log(0.38))),
-        white_balance=np.exp(rng.normal(0, 0.06, 3)).astype(np.float32),
+        white_balance=np.exp(rng.normal(0, 0.05, 3)).astype(np.float32),
         noise=exp(rng.uniform(log(0.001), log(0.012))) * (2.0 if mix is LightMix.DIM else 1.0),
         noise_grain_px=float(rng.uniform(0.4, 1.0)),
         gamma=float(rng.uniform(1.9, 2.5)),
         shoulder=float(rng.uniform(0.0, 0.5)),
-        contrast=float(rng.uniform(0.65, 1.25)),
+        contrast=float(rng.uniform(0.55, 1.15)),
         haze=float(rng.uniform(-0.06, 0.10)),
-        saturation=float(rng.uniform(0.5, 1.3)),
+        saturation=float(rng.uniform(0.7, 1.4)),
         sharpening=float(max(0.0, rng.uniform(-0.4, 0.9))),
         jpeg_quality=int(rng.integers(45, 96)),
         distractor=_distractor(rng),
@@ -111,7 +111,7 @@ def _bounded_normal(rng: np.random.Generator, sigma: float, bound: float) -> flo
 def _light_gains(rng: np.random.Generator, mix: LightMix) -> npt.NDArray[np.float32]:
     weights = np.array([rng.uniform(low, high) for low, high in MIX_WEIGHTS[mix]])
     warmth = rng.normal(0, 0.09, 3)
-    tint = rng.normal(0, 0.03, 3)
+    tint = rng.normal(0, 0.02, 3)
     colours = np.exp(np.stack([warmth, tint, -warmth], 1))
     return (weights[:, None] * colours).astype(np.float32)
 
@@ -128,8 +128,8 @@ def _tone_power(rng: np.random.Generator) -> float:
 
 
 def _tone_gains(rng: np.random.Generator) -> npt.NDArray[np.float32]:
-    skin = np.exp(rng.normal(0, 0.05, 3) + rng.normal(0, 0.08))
-    limbs = [skin * np.exp(rng.normal(0, 0.04, 3) * np.array([0.7, 1.0, 1.3])) for _ in range(2)]
+    skin = np.exp(rng.normal(0, 0.04, 3) + rng.normal(0, 0.08))
+    limbs = [skin * np.exp(rng.normal(0, 0.03, 3)) for _ in range(2)]
     background = np.exp(rng.normal(0, 0.5) + rng.normal(0, 0.25, 3))
     return np.stack([background, *limbs]).astype(np.float32)
 

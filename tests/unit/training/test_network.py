@@ -2,7 +2,8 @@ import pytest
 
 torch = pytest.importorskip("torch")
 
-from egotouch_sdk.training.network import FoldableConv, RepMixer, TouchNetwork, count_parameters, reparameterise  # noqa: E402
+from egotouch_sdk.training.fastvit import FoldableConv, RepMixer  # noqa: E402
+from egotouch_sdk.training.network import TouchNetwork, count_parameters, reparameterise  # noqa: E402
 
 
 def lived_in(network: torch.nn.Module) -> torch.nn.Module:
