@@ -197,13 +197,10 @@ def _scene(mi: Any, host: Surface, touching: Surface, lights: Lights, focus: Arr
 def _paint(params: Any, colours: Mapping[str, tuple[float, float, float]]) -> None:
     """Give whole surfaces one colour each: the shape index that Mitsuba reports is not stable from scene to scene."""
     for key in dict(params):
-        name = key.split(".")[0]
-        if name in colours and key.endswith(("vertex_color", ".data")):
-            params[key] = (
-                np.broadcast_to(np.float32(colours[name]), (*np.array(params[key]).shape[:-1], 3)).copy()
-                if key.endswith(".data")
-                else np.tile(np.float32(colours[name]), len(params[key]) // 3)
-            )
+        colour = colours.get(key.split(".")[0])
+        if colour is not None and key.endswith(("vertex_color", ".data")):
+            shape = np.array(params[key]).shape
+            params[key] = np.tile(np.array(colour, np.float32), int(np.prod(shape)) // 3).reshape(shape)
     params.update()
 
 
