@@ -46,8 +46,7 @@ def refusal(frame: Frame, hand: HandObservation, finger: Finger, config: Patches
         return PatchRefusal.OUTSIDE_FRAME
     if hypot(float(tip[0] - dip[0]), float(tip[1] - dip[1])) < MIN_DIRECTION_PX:
         return PatchRefusal.NO_DIRECTION
-    scale = tip_px_per_mm(hand, finger)
-    if scale is None or scale < config.min_px_per_mm:
+    if tip_px_per_mm(hand, finger) < config.min_px_per_mm:
         return PatchRefusal.TOO_SMALL
     return None
 
@@ -56,7 +55,6 @@ def _patch(frame: Frame, pair: TouchPair, finger: Finger, mirrored: bool) -> Fin
     hand, host = pair.touching, pair.host
     tip = hand.xy_px(finger.tip)
     scale = tip_px_per_mm(hand, finger)
-    assert scale is not None
     looks_left = (hand.handedness is Handedness.LEFT) != mirrored
     r_palms, theta_rad = HOST_UNKNOWN
     if hand_geometry.has_axis(host):

@@ -10,9 +10,9 @@ from egotouch_sdk.errors import ConfigError
 from egotouch_sdk.state.sample import FingertipSample
 from egotouch_sdk.state.table import Input
 
-#: Wrist to middle MCP of an adult in millimetres, to turn palm lengths into a speed (length of the third metacarpal, 64.6 mm,
-#: plus the carpus, about 30 mm; Buryanov and Kotiuk, Int. J. Morphol. 28(3), 2010, for the metacarpal).
-PALM_MM = 95.0
+#: Wrist to middle MCP in millimetres between MediaPipe's landmarks, to turn palm lengths into a speed (the generic WebXR hand
+#: with landmarks placed as MediaPipe places them, our measurement).
+PALM_MM = 83.0
 
 
 @dataclass(frozen=True, slots=True)

@@ -69,7 +69,7 @@ class ScriptedFinger:
             (x_px, y_px),
             2.0,
             (x_px / 1000, y_px / 1000),
-            (self.x_mm / 95, self.y_mm / 95),
+            (self.x_mm / 83, self.y_mm / 83),
         )
 
     def expect(self, *types: EventType) -> TouchEvent:

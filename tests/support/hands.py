@@ -1,7 +1,7 @@
 """Plausible hands for tests, built joint by joint.
 
 A hand is described in millimetres in its own plane: x to its thumb side, y from the wrist to the middle MCP, z out of the palm.
-Bone lengths: metacarpals and phalanges of an adult (Buryanov and Kotiuk, Int. J. Morphol. 28(3), 2010), rounded.
+Sizes are those between MediaPipe's landmarks on the generic WebXR hand, rounded.
 """
 
 from __future__ import annotations
@@ -15,17 +15,17 @@ import numpy.typing as npt
 from egotouch_sdk.joints import FINGERS, Finger, Handedness
 from egotouch_sdk.observation import HandObservation
 
-PALM_MM = 95.0
+PALM_MM = 83.0
 FOUR = (Finger.INDEX, Finger.MIDDLE, Finger.RING, Finger.PINKY)
-_KNUCKLES = {Finger.INDEX: (25.0, 92.0), Finger.MIDDLE: (0.0, PALM_MM), Finger.RING: (-21.0, 88.0), Finger.PINKY: (-40.0, 78.0)}
+_KNUCKLES = {Finger.INDEX: (22.0, 80.0), Finger.MIDDLE: (0.0, PALM_MM), Finger.RING: (-18.0, 77.0), Finger.PINKY: (-36.0, 66.0)}
 _PHALANGES = {
-    Finger.INDEX: (40.0, 22.0, 16.0),
-    Finger.MIDDLE: (45.0, 26.0, 17.0),
-    Finger.RING: (41.0, 26.0, 17.0),
-    Finger.PINKY: (33.0, 18.0, 16.0),
+    Finger.INDEX: (38.0, 24.0, 16.0),
+    Finger.MIDDLE: (40.0, 27.0, 17.6),
+    Finger.RING: (36.0, 27.0, 16.7),
+    Finger.PINKY: (28.0, 20.0, 15.3),
 }
-_OPEN_THUMB = ((25.0, 22.0, 8.0), (46.0, 52.0, 12.0), (62.0, 80.0, 14.0), (72.0, 99.0, 14.0))
-_TUCKED_THUMB = ((25.0, 22.0, 8.0), (42.0, 58.0, 20.0), (18.0, 70.0, 34.0), (-2.0, 72.0, 36.0))
+_OPEN_THUMB = ((23.0, 18.0, 8.0), (42.0, 44.0, 12.0), (58.0, 72.0, 14.0), (67.0, 87.5, 14.0))
+_TUCKED_THUMB = ((23.0, 18.0, 8.0), (38.0, 46.0, 18.0), (15.0, 58.0, 30.0), (-3.0, 59.0, 31.0))
 _STRAIGHT = (5.0, 5.0, 5.0)
 _FIST = (75.0, 100.0, 65.0)
 

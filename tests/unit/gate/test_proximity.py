@@ -12,7 +12,7 @@ from egotouch_sdk.observation import GateReason, GateResult, HandObservation
 from tests.support.hands import host_hand, make_hand, palm_centre, pointing_hand, with_tip_at
 
 CONFIG = GateConfig()
-PALM_PX = 190.0
+PALM_PX = 166.0
 
 
 def roles(result: GateResult) -> tuple[int, int]:
