@@ -9,6 +9,7 @@ from contextlib import contextmanager
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from statistics import fmean, median
+from threading import Lock
 from typing import Any
 
 import cv2
@@ -71,30 +72,47 @@ def fit_720p(frame: Frame) -> Frame:
     return Frame(np.asarray(padded, np.uint8), frame.timestamp_ns, frame.index)
 
 
-class _NetworkTime:
-    """Nanoseconds spent inside networks since the last `reset`."""
+class NetworkTime:
+    """Nanoseconds in which at least one network ran, since the last `reset`; calls side by side count once."""
 
     def __init__(self) -> None:
         self.total_ns = 0
+        self._running = 0
+        self._since_ns = 0
+        self._lock = Lock()
 
     def reset(self) -> None:
-        """Start again from zero."""
+        """Start again from zero; only between two calls."""
         self.total_ns = 0
+
+    def begin(self) -> None:
+        """A network call starts."""
+        with self._lock:
+            if self._running == 0:
+                self._since_ns = now_ns()
+            self._running += 1
+
+    def end(self) -> None:
+        """A network call is over."""
+        with self._lock:
+            self._running -= 1
+            if self._running == 0:
+                self.total_ns += now_ns() - self._since_ns
 
 
 @contextmanager
-def network_time() -> Iterator[_NetworkTime]:
+def network_time() -> Iterator[NetworkTime]:
     """Time every network call of every session while the block runs."""
     session_type: Any = type(create_session(SHIPPED_MODEL))
     plain_run = session_type.run
-    spent = _NetworkTime()
+    spent = NetworkTime()
 
     def timed_run(*args: Any, **kwargs: Any) -> Any:
-        start_ns = now_ns()
+        spent.begin()
         try:
             return plain_run(*args, **kwargs)
         finally:
-            spent.total_ns += now_ns() - start_ns
+            spent.end()
 
     session_type.run = timed_run
     try:
