@@ -6,13 +6,13 @@ import argparse
 from itertools import islice
 from pathlib import Path
 
-from egotouch_sdk.cli.options import Subparsers, add_command, positive_int
+from egotouch_sdk.cli.options import Subparsers, add_command, add_threads_option, positive_int, with_threads
 from egotouch_sdk.cli.output import print_json
 from egotouch_sdk.errors import SourceError
 
 EXAMPLES = """\
-  egotouch bench                    the demo clip at 1280x720, one thread per network
-  egotouch bench --threads 2
+  egotouch bench                    the demo clip at 1280x720
+  egotouch bench --threads 1        on one core
   egotouch bench my_clip.mp4        a clip of your own, scaled to 1280x720
   egotouch bench --json             one JSON object
 """
@@ -25,7 +25,7 @@ def add_parser(subparsers: Subparsers) -> None:
     parser = add_command(subparsers, "bench", "time the whole pipeline with two hands at 1280x720, stage by stage", EXAMPLES)
     parser.add_argument("source", metavar="VIDEO", nargs="?", help="a clip with two hands (default: the demo clip)")
     parser.add_argument("--frames", type=positive_int, default=300, metavar="N", help="frames to time at most (default 300)")
-    parser.add_argument("--threads", type=positive_int, default=1, metavar="N", help="threads per network (default 1)")
+    add_threads_option(parser)
     parser.add_argument("--json", action="store_true", help="one JSON object on stdout")
     parser.set_defaults(handler=bench)
 
@@ -42,7 +42,7 @@ def bench(options: argparse.Namespace) -> int:
         frames = [fit_720p(frame) for frame in islice(source, options.frames + WARM_UP)]
     if len(frames) <= WARM_UP:
         raise SourceError(f"{clip} has only {len(frames)} frames", hint=f"Give a clip of more than {WARM_UP} frames")
-    config = TouchConfig.model_validate({"hands": {"threads": options.threads}, "touch": {"threads": options.threads}})
+    config = TouchConfig(**with_threads({}, options.threads))
     report = measure(frames, config, warm_up=WARM_UP).to_dict()
     if options.json:
         print_json(report)

@@ -8,7 +8,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from egotouch_sdk.cli.options import Subparsers, add_command, positive_int
+from egotouch_sdk.cli.options import Subparsers, add_command, add_threads_option, with_threads
 from egotouch_sdk.cli.output import EventPrinter, Progress, print_json
 from egotouch_sdk.cli.play import play
 from egotouch_sdk.cli.views import Views
@@ -33,7 +33,7 @@ def add_parser(subparsers: Subparsers) -> None:
     parser.add_argument("--json", action="store_true", help="one JSON object per event on stdout, the scoreboard last")
     parser.add_argument("--save", type=Path, metavar="FILE.mp4", help="write the annotated view to a video file")
     parser.add_argument("--port", type=int, default=0, help="port of the live view on 127.0.0.1 (default: a free one)")
-    parser.add_argument("--threads", type=positive_int, default=1, metavar="N", help="threads per network (default 1)")
+    add_threads_option(parser)
     parser.set_defaults(handler=demo)
 
 
@@ -49,7 +49,7 @@ def demo(options: argparse.Namespace) -> int:
     if not (clip.is_file() and truth_file.is_file()):
         raise SourceError(f"this install lacks the demo clip {clip}", hint="Install the package again, or use: egotouch run SOURCE")
     truth = ClipTruth.from_dict(json.loads(truth_file.read_text(encoding="utf-8")))
-    pipeline = TouchPipeline(TouchConfig.model_validate({"hands": {"threads": options.threads}, "touch": {"threads": options.threads}}))
+    pipeline = TouchPipeline(TouchConfig(**with_threads({}, options.threads)))
     events: list[TouchEvent] = []
     printer = EventPrinter(options.json, Progress(None))
 

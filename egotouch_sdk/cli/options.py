@@ -40,8 +40,13 @@ def add_source_options(parser: argparse.ArgumentParser) -> None:
 def add_pipeline_options(parser: argparse.ArgumentParser) -> None:
     """--mirrored, --threads and --config."""
     parser.add_argument("--mirrored", action="store_true", help="the picture is a mirror image, as from a selfie camera")
-    parser.add_argument("--threads", type=positive_int, metavar="N", help="threads per network (default 1)")
+    add_threads_option(parser)
     parser.add_argument("--config", type=Path, metavar="FILE", help="settings as JSON, with the sections and names of TouchConfig")
+
+
+def add_threads_option(parser: argparse.ArgumentParser) -> None:
+    """--threads."""
+    parser.add_argument("--threads", type=positive_int, metavar="N", help="threads for the hand networks and for the touch network")
 
 
 def positive_int(text: str) -> int:
@@ -85,10 +90,14 @@ def config_from(options: argparse.Namespace) -> TouchConfig:
     settings = _read_settings(options.config) if options.config else {}
     if options.mirrored:
         settings.setdefault("hands", {})["mirrored"] = True
-    if options.threads:
-        settings.setdefault("hands", {})["threads"] = options.threads
-        settings.setdefault("touch", {})["threads"] = options.threads
-    return TouchConfig(**settings)
+    return TouchConfig(**with_threads(settings, options.threads))
+
+
+def with_threads(settings: dict[str, Any], threads: int | None) -> dict[str, Any]:
+    """Settings in which every network has `threads` threads; None leaves them as they are."""
+    if threads is None:
+        return settings
+    return settings | {section: {**settings.get(section, {}), "threads": threads} for section in ("hands", "touch")}
 
 
 def _read_settings(path: Path) -> dict[str, Any]:
