@@ -14,6 +14,7 @@ from torch import Tensor
 from torch.utils.data import Dataset, Sampler
 
 from egotouch_sdk.patches import HOST_UNKNOWN, normalise
+from egotouch_sdk.synthetic.air import in_the_air
 from egotouch_sdk.synthetic.camera import photograph_randomly
 from egotouch_sdk.training.shards import RenderedPatch
 
@@ -21,6 +22,8 @@ from egotouch_sdk.training.shards import RenderedPatch
 HOST_UNKNOWN_SHARE = 0.5
 #: Spread of the tracker's error on R (relative) and theta (radians) in training (our choice).
 POLAR_JITTER = (0.05, 0.06)
+#: Share of hovers whose surroundings are replaced by clutter, so that a hand before anything but skin is no touch (our choice).
+AIR_SHARE = 0.08
 #: Share of mirrored training samples, their theta negated.
 FLIP_SHARE = 0.5
 
@@ -35,10 +38,11 @@ class Sample(NamedTuple):
     hover_mm: Tensor
 
 
-def view(rendered: RenderedPatch, rng: np.random.Generator) -> tuple[npt.NDArray[np.uint8], tuple[float, float]]:
+def view(rendered: RenderedPatch, rng: np.random.Generator, air_share: float = 0.0) -> tuple[npt.NDArray[np.uint8], tuple[float, float]]:
     """One camera picture, uint8 (100, 100, 3) RGB, with its (r_palms, theta_rad)."""
-    image = photograph_randomly(rendered.layers, rng)
     label = rendered.label
+    aloft = not label.touch and rng.random() < air_share
+    image = photograph_randomly(in_the_air(rendered.layers, rng) if aloft else rendered.layers, rng)
     r_palms = label.r_palms * float(np.exp(rng.normal(0, POLAR_JITTER[0])))
     theta_rad = label.theta_rad + float(rng.normal(0, POLAR_JITTER[1]))
     if rng.random() < FLIP_SHARE:
@@ -49,10 +53,11 @@ def view(rendered: RenderedPatch, rng: np.random.Generator) -> tuple[npt.NDArray
 
 
 class PatchDataset(Dataset[Sample]):
-    """Item (index, seed) is patch `index` seen by the random camera of `seed`."""
+    """Item (index, seed) is patch `index` seen by the random camera of `seed`; `air_share` of the hovers lose their host."""
 
-    def __init__(self, rendered: Sequence[RenderedPatch]) -> None:
+    def __init__(self, rendered: Sequence[RenderedPatch], air_share: float = 0.0) -> None:
         self.rendered = rendered
+        self.air_share = air_share
 
     def __len__(self) -> int:
         return len(self.rendered)
@@ -61,7 +66,7 @@ class PatchDataset(Dataset[Sample]):
         cv2.setNumThreads(1)
         index, seed = key
         rendered = self.rendered[index]
-        image, polar = view(rendered, np.random.default_rng(seed))
+        image, polar = view(rendered, np.random.default_rng(seed), self.air_share)
         label = rendered.label
         return Sample(
             patch=torch.from_numpy(normalise(image[None])[0]),

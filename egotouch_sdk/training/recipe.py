@@ -13,7 +13,7 @@ class Recipe:
     """Settings of one training run.
 
     `Recipe.paper()` is the paper's: Adam 3e-4, batch 128, 8 epochs, weighted binary cross-entropy + 5 x squared force error
-    (EgoTouch, UIST'24, section 4). The defaults keep its loss and batch and add what a small rendered set needs.
+    (EgoTouch, UIST'24, section 4). The defaults keep its loss and add what a small rendered set needs.
     `epochs` counts passes over the renders, every pass with new cameras. Over `warmup_share` of the steps the learning rate
     rises, then it falls along a cosine. `average_decay` is the decay per step of the averaged weights that are shipped, 0 for none.
     `label_smoothing` moves targets towards one half. `hover_weight` weighs an auxiliary hover-height output, dropped on export.
@@ -21,8 +21,8 @@ class Recipe:
     """
 
     epochs: int = 16
-    batch: int = 128
-    learning_rate: float = 2e-3
+    batch: int = 64
+    learning_rate: float = 1.5e-3
     weight_decay: float = 0.05
     warmup_share: float = 0.1
     force_weight: float = 5.0
@@ -30,7 +30,7 @@ class Recipe:
     label_smoothing: float = 0.04
     drop_path: float = 0.05
     dropout: float = 0.1
-    average_decay: float = 0.998
+    average_decay: float = 0.995
     held_out_share: float = 0.12
     held_out_views: int = 2
     seed: int = 1
@@ -49,7 +49,7 @@ class Recipe:
     def paper(cls) -> Recipe:
         """The paper's own recipe, without our additions."""
         return cls(
-            epochs=8, learning_rate=3e-4, weight_decay=0.0, warmup_share=0.0, hover_weight=0.0,
+            epochs=8, batch=128, learning_rate=3e-4, weight_decay=0.0, warmup_share=0.0, hover_weight=0.0,
             label_smoothing=0.0, drop_path=0.0, dropout=0.0, average_decay=0.0,
         )  # fmt: skip
 

@@ -17,7 +17,7 @@ from torch.utils.data import DataLoader
 
 from egotouch_sdk.errors import ConfigError, SourceError
 from egotouch_sdk.training.calibration import Calibration, calibrate
-from egotouch_sdk.training.dataset import PatchDataset, Sample, SeededOrder, collate, fixed_views
+from egotouch_sdk.training.dataset import AIR_SHARE, PatchDataset, Sample, SeededOrder, collate, fixed_views
 from egotouch_sdk.training.export import ModelFacts, write_model
 from egotouch_sdk.training.module import TouchModule
 from egotouch_sdk.training.network import TouchNetwork
@@ -84,7 +84,7 @@ def fit(module: TouchModule, train_patches: list[RenderedPatch], validation: Sam
     recipe = module.recipe
     order = SeededOrder(len(train_patches), recipe.seed)
     batches = DataLoader(
-        PatchDataset(train_patches), recipe.batch, sampler=order, collate_fn=collate, num_workers=machine.workers,
+        PatchDataset(train_patches, AIR_SHARE), recipe.batch, sampler=order, collate_fn=collate, num_workers=machine.workers,
         drop_last=len(train_patches) >= 2 * recipe.batch, persistent_workers=False, prefetch_factor=3 if machine.workers else None,
     )  # fmt: skip
     trainer = lightning.Trainer(
