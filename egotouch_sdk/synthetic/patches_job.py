@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import multiprocessing as mp
 import os
-import time
 from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import asdict, dataclass
@@ -13,6 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
+from egotouch_sdk.clock import now_ns
 from egotouch_sdk.errors import ConfigError
 from egotouch_sdk.synthetic.hand_rig import HandRig
 from egotouch_sdk.synthetic.series import LabelledLayers, render_series
@@ -78,14 +78,15 @@ def run(job: PatchJob, out: Path, workers: int, report: Callable[[str], None]) -
     recipe.write_text(json.dumps(asdict(job)) + "\n")
     missing = [k for k in range(job.shards) if not (out / f"shard-{job.seed}-{k:05d}.npz").exists()]
     report(f"{job.shards - len(missing)} of {job.shards} shards are there, {len(missing)} to render on {workers} processes")
-    started, made = time.monotonic(), 0
+    started_ns, made = now_ns(), 0
     pool = ProcessPoolExecutor(workers, mp_context=mp.get_context("spawn"), initializer=_start_worker)
     try:
         futures = [pool.submit(render_shard, job, k, out) for k in missing]
         for done, future in enumerate(as_completed(futures), 1):
             made += future.result()
-            rate = made / (time.monotonic() - started) * 3600
-            left_min = (len(missing) - done) / max(done, 1) * (time.monotonic() - started) / 60
+            elapsed_s = (now_ns() - started_ns) / 1e9
+            rate = made / elapsed_s * 3600
+            left_min = (len(missing) - done) / max(done, 1) * elapsed_s / 60
             report(f"shard {done}/{len(missing)}: {made} patches, {rate:.0f} per hour, {left_min:.0f} min left")
     finally:
         pool.shutdown(wait=False, cancel_futures=True)
