@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from math import pi
 from typing import NamedTuple
 
@@ -16,7 +17,7 @@ from torch.utils.data import Dataset, Sampler
 from egotouch_sdk.patches import HOST_UNKNOWN, normalise
 from egotouch_sdk.synthetic.air import in_the_air
 from egotouch_sdk.synthetic.camera import photograph_randomly
-from egotouch_sdk.training.shards import RenderedPatch
+from egotouch_sdk.training.shards import HOVER_MAX_MM, RenderedPatch
 
 #: Share of training samples whose host place is withheld, so that the model also works when the host is unknown.
 HOST_UNKNOWN_SHARE = 0.5
@@ -38,11 +39,10 @@ class Sample(NamedTuple):
     hover_mm: Tensor
 
 
-def view(rendered: RenderedPatch, rng: np.random.Generator, air_share: float = 0.0) -> tuple[npt.NDArray[np.uint8], tuple[float, float]]:
+def view(rendered: RenderedPatch, rng: np.random.Generator) -> tuple[npt.NDArray[np.uint8], tuple[float, float]]:
     """One camera picture, uint8 (100, 100, 3) RGB, with its (r_palms, theta_rad)."""
     label = rendered.label
-    aloft = not label.touch and rng.random() < air_share
-    image = photograph_randomly(in_the_air(rendered.layers, rng) if aloft else rendered.layers, rng)
+    image = photograph_randomly(rendered.layers, rng)
     r_palms = label.r_palms * float(np.exp(rng.normal(0, POLAR_JITTER[0])))
     theta_rad = label.theta_rad + float(rng.normal(0, POLAR_JITTER[1]))
     if rng.random() < FLIP_SHARE:
@@ -65,8 +65,10 @@ class PatchDataset(Dataset[Sample]):
     def __getitem__(self, key: tuple[int, int]) -> Sample:
         cv2.setNumThreads(1)
         index, seed = key
-        rendered = self.rendered[index]
-        image, polar = view(rendered, np.random.default_rng(seed), self.air_share)
+        rendered, rng = self.rendered[index], np.random.default_rng(seed)
+        if not rendered.label.touch and rng.random() < self.air_share:
+            rendered = RenderedPatch(in_the_air(rendered.layers, rng), replace(rendered.label, hover_mm=HOVER_MAX_MM))
+        image, polar = view(rendered, rng)
         label = rendered.label
         return Sample(
             patch=torch.from_numpy(normalise(image[None])[0]),

@@ -92,3 +92,12 @@ def test_fixed_views_are_fixed(shard_folder: Path) -> None:
     assert index == [0, 1, 2, 0, 1, 2] and batch.patch.shape == (6, 3, 100, 100)
     assert torch.equal(batch.patch, fixed_views(rendered, views=2, seed=1)[1].patch)
     assert torch.equal(collate([PatchDataset(rendered)[0, 5]]).patch[0], PatchDataset(rendered)[0, 5].patch)
+
+
+def test_only_hovers_lose_their_host(shard_folder: Path) -> None:
+    touch, hover = read_folder(shard_folder)[:2]
+    assert touch.label.touch and not hover.label.touch
+    dataset = PatchDataset([touch, hover], air_share=0.5)
+    heights = [[float(dataset[index, seed].hover_mm) for seed in range(40)] for index in (0, 1)]
+    assert set(heights[0]) == {0.0}
+    assert set(heights[1]) == {8.0, 30.0}
