@@ -55,7 +55,7 @@ def find_pairs(hands: Sequence[HandObservation], config: GateConfig, previous: G
     candidates = [_candidate(touching, host, config, previous) for touching, host in permutations(hands, 2)]
     fitting = [candidate for candidate in candidates if candidate.is_open]
     if fitting:
-        best = min(fitting, key=lambda candidate: candidate.cost_palms)
+        best = min(fitting, key=lambda candidate: (candidate.cost_palms, candidate.touching.hand_id, candidate.host.hand_id))
         return GateResult(GateReason.OPEN, (TouchPair(best.touching, best.host, best.distance_palms, best.over),))
     near = [candidate for candidate in candidates if candidate.is_near]
     if near and not any(candidate.active for candidate in near):
