@@ -62,9 +62,9 @@ def compare(hands: tuple[HandObservation, ...], expected: list[dict[str, Any]]) 
     return pairs, len(hands) >= len(expected) and extra_is_justified
 
 
-def check(reference_name: str, files: list[Path], at_least: int) -> None:
+def check(model: str, reference_name: str, files: list[Path], at_least: int) -> None:
     reference = json.loads((HERE / reference_name).read_text())
-    tracker, pairs, unequal, count = HandTracker(), [], [], 0
+    tracker, pairs, unequal, count = HandTracker(model=model), [], [], 0
     for name, frame, expected in frames(reference, files):
         tracker.reset()
         found, equal = compare(tracker.track(frame), expected)
@@ -72,21 +72,23 @@ def check(reference_name: str, files: list[Path], at_least: int) -> None:
         unequal += [] if equal else [name]
         count += 1
     distances = [distance for _, distance, _ in pairs]
-    print(f"{len(pairs)} hands in {count} frames, distance in palms: median {np.median(distances):.4f}, worst {max(distances):.4f}")
+    print(f"{model}: {len(pairs)} hands in {count} frames, palms away: median {np.median(distances):.4f}, worst {max(distances):.4f}")
     assert len(pairs) >= at_least
     assert [pair for pair in pairs if pair[1] >= MARGIN or not pair[2]] == []
     assert len(unequal) <= MAX_UNEQUAL_FRAMES * count, unequal
 
 
 @pytest.mark.real_data
-def test_real_photos_and_clips():
+@pytest.mark.parametrize("model", ["int8", "full"])
+def test_real_photos_and_clips(model):
     folder = os.environ.get("EGOTOUCH_REAL_DIR")
     if not folder:
         pytest.skip("EGOTOUCH_REAL_DIR does not name a folder of real photos")
-    check("real_reference.json", find_files([folder]), at_least=50)
+    check(model, "real_reference.json", find_files([folder]), at_least=50)
 
 
-def test_demo_clip():
+@pytest.mark.parametrize("model", ["int8", "full"])
+def test_demo_clip(model):
     if not DEMO_CLIP.is_file():
         pytest.skip("this checkout has no demo clip")
-    check("demo_reference.json", [DEMO_CLIP], at_least=8)
+    check(model, "demo_reference.json", [DEMO_CLIP], at_least=8)
