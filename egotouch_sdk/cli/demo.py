@@ -8,7 +8,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from egotouch_sdk.cli.options import Subparsers, add_command, add_threads_option, with_threads
+from egotouch_sdk.cli.options import Subparsers, add_command, add_threads_option, add_view_options, with_threads
 from egotouch_sdk.cli.output import EventPrinter, Progress, print_json
 from egotouch_sdk.cli.play import play
 from egotouch_sdk.cli.views import Views
@@ -31,8 +31,7 @@ def add_parser(subparsers: Subparsers) -> None:
     parser.add_argument("--headless", action="store_true", help="no view: print events only")
     parser.add_argument("--fast", action="store_true", help="do not hold frames back to real time")
     parser.add_argument("--json", action="store_true", help="one JSON object per event on stdout, the scoreboard last")
-    parser.add_argument("--save", type=Path, metavar="FILE.mp4", help="write the annotated view to a video file")
-    parser.add_argument("--port", type=int, default=0, help="port of the live view on 127.0.0.1 (default: a free one)")
+    add_view_options(parser)
     add_threads_option(parser)
     parser.set_defaults(handler=demo)
 

@@ -8,7 +8,6 @@ import sys
 import warnings
 from collections.abc import Sequence
 from importlib import import_module
-from importlib.util import find_spec
 from typing import NoReturn, TextIO
 
 from egotouch_sdk import __version__
@@ -66,8 +65,7 @@ def build_parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=f"egotouch {__version__}")
     subparsers = parser.add_subparsers(title="commands", metavar="COMMAND", required=True, parser_class=_Parser)
     for module in COMMANDS:
-        if find_spec(module):
-            import_module(module).add_parser(subparsers)
+        import_module(module).add_parser(subparsers)
     return parser
 
 

@@ -56,6 +56,19 @@ def positive_int(text: str) -> int:
     return int(text)
 
 
+def port_number(text: str) -> int:
+    """A TCP port, 0 for any free one, for argparse."""
+    if not text.isdigit() or int(text) > 65535:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a port (0 to 65535)")
+    return int(text)
+
+
+def add_view_options(parser: argparse.ArgumentParser) -> None:
+    """--save and --port."""
+    parser.add_argument("--save", type=Path, metavar="FILE.mp4", help="write the annotated view to a video file")
+    parser.add_argument("--port", type=port_number, default=0, help="port of the live view on 127.0.0.1 (default: a free one)")
+
+
 def positive_float(text: str) -> float:
     """A number above zero, for argparse."""
     try:

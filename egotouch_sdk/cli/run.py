@@ -12,6 +12,7 @@ from egotouch_sdk.cli.options import (
     add_command,
     add_pipeline_options,
     add_source_options,
+    add_view_options,
     config_from,
     open_from,
 )
@@ -41,8 +42,7 @@ def add_parser(subparsers: Subparsers) -> None:
     add_pipeline_options(parser)
     parser.add_argument("--json", action="store_true", help="one JSON object per event on stdout")
     parser.add_argument("--show", action="store_true", help="open an annotated live view in the browser")
-    parser.add_argument("--save", type=Path, metavar="FILE.mp4", help="write the annotated view to a video file")
-    parser.add_argument("--port", type=int, default=0, help="port of the live view on 127.0.0.1 (default: a free one)")
+    add_view_options(parser)
     parser.add_argument("--progress", action="store_true", help="report progress on stderr even when that is not a terminal")
     parser.set_defaults(handler=run)
 

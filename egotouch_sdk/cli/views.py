@@ -65,7 +65,7 @@ class Views:
         if self._writer or watched:
             picture = self._annotator.draw(frame, result)
             if self._writer:
-                self._writer.write(picture)
+                self._writer.write(picture, frame.timestamp_ns)
             if self.server and watched:
                 self.server.show(picture)
 

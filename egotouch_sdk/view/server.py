@@ -64,7 +64,7 @@ class ViewServer:
         self._server.shutdown()
         self._server.server_close()
 
-    def join(self, seen: int) -> tuple[bytes, int] | None:
+    def next_picture(self, seen: int) -> tuple[bytes, int] | None:
         """The next picture after number `seen`, with its number; None when the view has ended."""
         with self._changed:
             self._changed.wait_for(lambda: self._count > seen or self._closed)
@@ -117,7 +117,7 @@ class _Handler(BaseHTTPRequestHandler):
         view.count_viewer(+1)
         seen = 0
         try:
-            while (newest := view.join(seen)) is not None:
+            while (newest := view.next_picture(seen)) is not None:
                 jpeg, seen = newest
                 head = f"--{_BOUNDARY}\r\nContent-Type: image/jpeg\r\nContent-Length: {len(jpeg)}\r\n\r\n"
                 self.wfile.write(head.encode() + jpeg + b"\r\n")
