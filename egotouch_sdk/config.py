@@ -80,12 +80,10 @@ class GateConfig(_Section):
         default=3.3, gt=0, description="Hands that were near stay so up to this distance (our choice, 10 % slack)."
     )
     over_enter_palms: float = Field(
-        default=0.5,
-        ge=0,
-        description="A fingertip may appear this far beside the host limb: 5 cm above it, seen from the side (our choice).",
+        default=0.3, ge=0, description="A fingertip may appear this far beside the host limb: 3 cm above it at 45 degrees (our choice)."
     )
     over_exit_palms: float = Field(
-        default=0.7, ge=0, description="A fingertip that was over the limb may go this far before it leaves (our choice)."
+        default=0.5, ge=0, description="A fingertip that was over the limb may go this far before it leaves (our choice)."
     )
     forearm_palms: float = Field(
         default=3.0, ge=0, description="Length of forearm behind the host wrist that can be touched; a forearm is 2.5 to 3 palms long."
@@ -97,12 +95,12 @@ class GateConfig(_Section):
         description="How far the forearm may bend from the line middle MCP to wrist: 45 degrees of wrist motion.",
     )
     extended_enter: float = Field(
-        default=0.6,
+        default=0.7,
         gt=0,
         lt=1,
-        description="A finger is not tucked in when MCP to tip is this share of its length; a fist has 0.3, a right-angled PIP 0.7.",
+        description="A finger is not tucked in when MCP to tip is this share of its length; a fist has 0.3, a bent pressing finger 0.8.",
     )
-    extended_exit: float = Field(default=0.5, gt=0, lt=1, description="A finger that was active stays so down to this share (our choice).")
+    extended_exit: float = Field(default=0.55, gt=0, lt=1, description="A finger that was active stays so down to this share (our choice).")
     swap_margin_palms: float = Field(
         default=0.3, ge=0, description="The two hands change roles only when the other role fits better by this much (our choice)."
     )

@@ -36,7 +36,7 @@ def test_an_unknown_key_names_the_nearest_right_one(data: dict[str, object], mes
         (StateConfig, {"stall_ms": -1}, "StateConfig.stall_ms is -1"),
         (GateConfig, {"near_enter_palms": "far"}, "GateConfig.near_enter_palms is 'far'"),
         (GateConfig, {"near_enter_palms": 9}, "more than near_exit_palms = 3.3"),
-        (GateConfig, {"extended_exit": 0.9}, "more than extended_enter = 0.6"),
+        (GateConfig, {"extended_exit": 0.9}, "more than extended_enter = 0.7"),
         (StateConfig, {"up_probability": 0.6, "down_probability": 0.5}, "more than down_probability = 0.5"),
         (HandsConfig, {"max_hands": 3}, "HandsConfig.max_hands is 3"),
         (TouchConfig, {"hands": 3}, "HandsConfig is 3"),

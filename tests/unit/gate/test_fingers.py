@@ -23,7 +23,7 @@ def test_a_finger_that_pokes_or_presses_is_active(bends: tuple[float, float, flo
 
 
 def test_a_half_curled_finger_stays_active_but_does_not_become_so() -> None:
-    half = make_hand(extended=(), bends_deg={Finger.INDEX: (10.0, 100.0, 35.0)})
+    half = make_hand(extended=(), bends_deg={Finger.INDEX: (10.0, 90.0, 30.0)})
     assert active_fingers(half, CONFIG) == ()
     assert active_fingers(half, CONFIG, already=(Finger.INDEX,)) == (Finger.INDEX,)
 

@@ -80,7 +80,7 @@ def test_a_fist_over_the_palm_has_no_active_finger() -> None:
 
 def test_only_fingers_over_the_limb_count() -> None:
     host = host_hand()
-    touching = with_tip_at(make_hand(hand_id=1, extended=(Finger.THUMB, Finger.INDEX), pointing_deg=150.0), Finger.INDEX, beside(host, 0.3))
+    touching = with_tip_at(make_hand(hand_id=1, extended=(Finger.THUMB, Finger.INDEX), pointing_deg=150.0), Finger.INDEX, beside(host, 0.2))
     assert find_pairs([touching, host], CONFIG).pairs[0].active_fingers == (Finger.INDEX,)
 
 
@@ -88,10 +88,10 @@ def test_a_finger_beside_the_limb_stays_but_does_not_enter() -> None:
     host = host_hand()
     over = find_pairs([pointing_hand(beside(host, 0.2), pointing_deg=180.0), host], CONFIG)
     assert over.is_open
-    away = [pointing_hand(beside(host, 0.6), pointing_deg=180.0), host]
+    away = [pointing_hand(beside(host, 0.4), pointing_deg=180.0), host]
     assert find_pairs(away, CONFIG).reason is GateReason.TOO_FAR
     assert find_pairs(away, CONFIG, over).is_open
-    gone = [pointing_hand(beside(host, 0.8), pointing_deg=180.0), host]
+    gone = [pointing_hand(beside(host, 0.6), pointing_deg=180.0), host]
     assert find_pairs(gone, CONFIG, over).reason is GateReason.TOO_FAR
 
 
@@ -124,9 +124,9 @@ def test_a_hidden_host_can_be_touched() -> None:
 @pytest.mark.parametrize("scale", [0.5, 1.0, 3.0])
 def test_distance_is_in_the_hosts_palms_at_any_size(scale: float) -> None:
     host = host_hand(px_per_mm=2.0 * scale)
-    tip = (float(host.landmarks_px[:, 0].max()) + 0.4 * PALM_PX * scale, palm_centre(host)[1])
+    tip = (float(host.landmarks_px[:, 0].max()) + 0.2 * PALM_PX * scale, palm_centre(host)[1])
     result = find_pairs([pointing_hand(tip, pointing_deg=180.0, px_per_mm=2.0 * scale), host], CONFIG)
-    expected = find_pairs([pointing_hand(beside(host_hand(), 0.4), pointing_deg=180.0), host_hand()], CONFIG)
+    expected = find_pairs([pointing_hand(beside(host_hand(), 0.2), pointing_deg=180.0), host_hand()], CONFIG)
     assert result.pairs[0].distance_palms == pytest.approx(expected.pairs[0].distance_palms, rel=0.05)
 
 
