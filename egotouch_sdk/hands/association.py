@@ -1,8 +1,7 @@
 """Which findings are the same hand.
 
 MediaPipe compares the axis-aligned squares around hands and drops one of two that overlap by more than half. A finger that
-touches the other hand does exactly that, so palms are compared by their keypoints and hands by their landmarks instead
-(share of frames with a wrong, doubled or lost hand on composed overlaps: see `tests/benchmarks/hand_overlap.py`).
+touches the other hand does exactly that, so palms are compared by their keypoints and hands by their landmarks instead.
 """
 
 from __future__ import annotations

@@ -5,6 +5,7 @@ import pytest
 
 from egotouch_sdk.errors import ConfigError, FrameError, ModelError
 from egotouch_sdk.frame import Frame
+from egotouch_sdk.hands import palm_detector
 from egotouch_sdk.hands import tracker as tracker_module
 from egotouch_sdk.hands.association import PALM_JOINTS
 from egotouch_sdk.hands.base import HandSource
@@ -13,6 +14,7 @@ from egotouch_sdk.hands.landmarker import LocatedHand
 from egotouch_sdk.hands.palm_detector import PalmDetection
 from egotouch_sdk.hands.roi import roi_from_landmarks
 from egotouch_sdk.hands.tracker import HandTracker
+from egotouch_sdk.model_store import hand_model
 from tests.support.located import flat_hand
 
 STEP_NS = 33_000_000
@@ -201,5 +203,11 @@ def test_wrong_settings_are_refused(settings):
 
 
 def test_an_unknown_model_is_refused():
-    with pytest.raises(ModelError, match="palm_detection_huge"):
+    with pytest.raises(ConfigError, match=r"'huge'.*int8, full, lite"):
         HandTracker(model="huge")
+
+
+def test_a_model_that_was_not_built_is_named(monkeypatch, tmp_path):
+    monkeypatch.setattr(palm_detector, "hand_model", lambda name: hand_model(name, tmp_path))
+    with pytest.raises(ModelError, match=r"manifest\.json is missing.*pip install"):
+        HandTracker()
