@@ -11,6 +11,7 @@ PYTEST_ARGS ?= -n 2 --dist loadfile -q
 # The hand networks are made while the package is installed; when they are gone, install again.
 HANDS := egotouch_sdk/models/hands/manifest.json
 AGAIN := $(if $(wildcard $(HANDS)),,FORCE)
+PARTS := pyproject.toml hatch_build.py $(wildcard egotouch_sdk/hands/convert/*.py)
 
 .PHONY: help demo test lint bench clean FORCE
 .DEFAULT_GOAL := help
@@ -39,12 +40,12 @@ $(BIN)/python:
 	@test -n "$(PYTHON)" || { echo "No Python >= 3.11 found. Install one, or run: make PYTHON=/path/to/python3.11 $(MAKECMDGOALS)" >&2; exit 1; }
 	$(PYTHON) -m venv $(VENV)
 
-$(VENV)/.run: $(BIN)/python pyproject.toml hatch_build.py $(AGAIN)
+$(VENV)/.run: $(BIN)/python $(PARTS) $(AGAIN)
 	@echo "Installing the package and its hand tracking networks into $(VENV) (about a minute) ..."
 	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable .
 	@touch $@
 
-$(VENV)/.dev: $(BIN)/python pyproject.toml hatch_build.py $(AGAIN)
+$(VENV)/.dev: $(BIN)/python $(PARTS) $(AGAIN)
 	@echo "Installing the package with its development tools into $(VENV) (about a minute) ..."
 	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[dev]'
 	@touch $@ $(VENV)/.run
