@@ -27,7 +27,7 @@ def weighted_suppression(boxes: FloatArray, scores: FloatArray, threshold: float
     Each group is (member indices, weights that sum to 1): MediaPipe takes the score-weighted mean of a group's members
     (`non_max_suppression_calculator.cc`, WEIGHTED).
     """
-    groups = []
+    groups: list[tuple[npt.NDArray[np.intp], FloatArray]] = []
     remaining = np.argsort(-scores, kind="stable")
     while len(remaining):
         close = overlaps(boxes[remaining[0]], boxes[remaining]) > threshold

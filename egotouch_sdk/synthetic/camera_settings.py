@@ -76,7 +76,7 @@ class CameraSettings:
 
 def draw_settings(rng: np.random.Generator) -> CameraSettings:
     """One random draw; it never looks at the label, so that neither blur nor light nor framing can stand for touch."""
-    mix = LightMix(rng.choice(list(MIX_SHARES), p=list(MIX_SHARES.values())))
+    mix = LightMix(str(rng.choice(list(MIX_SHARES), p=list(MIX_SHARES.values()))))
     return CameraSettings(
         light_gains=_light_gains(rng, mix),
         crevice_tint=_crevice_tint(rng),

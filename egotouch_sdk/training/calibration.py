@@ -32,7 +32,7 @@ def calibrate(touch: npt.NDArray[np.bool_], logit: npt.NDArray[np.floating]) -> 
 
     `down` is the centre of the probabilities whose balanced accuracy is within half a percent of the best.
     """
-    weight = np.where(touch, 0.5 / max(touch.sum(), 1), 0.5 / max((~touch).sum(), 1))
+    weight = np.where(touch, 0.5 / max(int(touch.sum()), 1), 0.5 / max(int((~touch).sum()), 1))
     scale, shift = _fit_logistic(touch.astype(float), np.asarray(logit, float), weight)
     probability = 1 / (1 + np.exp(-(scale * logit + shift)))
     balanced = np.array([0.5 * ((probability[touch] >= t).mean() + (probability[~touch] < t).mean()) for t in GRID])
