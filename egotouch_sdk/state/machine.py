@@ -53,7 +53,8 @@ class _Pointer:
 class TouchStateMachine:
     """Turns the samples of one frame after another into events that keep the grammar.
 
-    At most one pointer is open per finger of each side; `pointer_id` counts up and is never used twice.
+    At most one pointer is open per finger of each side; `pointer_id` counts up and is never used twice. `x_palms` and `y_palms` are
+    both 0 in a frame whose host has no usable axis.
     """
 
     def __init__(self, config: StateConfig, thresholds: Thresholds) -> None:
