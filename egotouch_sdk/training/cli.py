@@ -23,6 +23,9 @@ def add_parser(subparsers: Subparsers) -> None:
     parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="where checkpoint, model, manifest and model card go")
     parser.add_argument("--recipe", choices=("default", "paper"), default="default", help="our recipe, or the paper's without additions")
     parser.add_argument("--epochs", type=positive_int, metavar="N", help="passes over the renders, each with new cameras")
+    parser.add_argument(
+        "--picture-px", type=positive_int, metavar="N", help="size of the pictures, smaller = faster first stage (default 100)"
+    )
     parser.add_argument("--learning-rate", type=positive_float, metavar="X", help="largest learning rate")
     parser.add_argument("--seed", type=int, metavar="N", help="seed of weights, order and cameras")
     parser.add_argument("--threads", type=positive_int, default=2, metavar="N", help="threads of the network (default 2)")
@@ -45,7 +48,7 @@ def train(options: argparse.Namespace) -> int:
     from dataclasses import replace
 
     recipe = Recipe.paper() if options.recipe == "paper" else Recipe()
-    chosen = {"epochs": options.epochs, "learning_rate": options.learning_rate, "seed": options.seed}
+    chosen = {"epochs": options.epochs, "learning_rate": options.learning_rate, "picture_px": options.picture_px, "seed": options.seed}
     recipe = replace(recipe, **{name: value for name, value in chosen.items() if value is not None})
     machine = Machine(options.threads, options.workers, options.max_minutes)
     path = run(options.data, options.out, recipe, machine, resume=options.resume, start_from=options.start_from)

@@ -17,7 +17,7 @@ from torch.utils.data import Dataset, Sampler
 from egotouch_sdk.patches import HOST_UNKNOWN, normalise
 from egotouch_sdk.synthetic.air import in_the_air
 from egotouch_sdk.synthetic.camera import photograph_randomly
-from egotouch_sdk.training.shards import HOVER_MAX_MM, RenderedPatch
+from egotouch_sdk.training.shards import HOVER_MAX_MM, PatchLabel, RenderedPatch
 
 #: Share of training samples whose host place is withheld, so that the model also works when the host is unknown.
 HOST_UNKNOWN_SHARE = 0.5
@@ -80,10 +80,14 @@ class PatchDataset(Dataset[Sample]):
 
 
 class SeededOrder(Sampler[tuple[int, int]]):
-    """Every patch once per epoch in random order, with a camera seed that depends on run seed, epoch and position only."""
+    """Draws patch and camera; the draw depends on run seed, epoch and position only.
 
-    def __init__(self, count: int, seed: int) -> None:
+    An epoch has as many draws as there are patches. Without `weights` each patch comes once, with them in that proportion on average.
+    """
+
+    def __init__(self, count: int, seed: int, weights: npt.NDArray[np.floating] | None = None) -> None:
         self.count, self.seed, self.epoch = count, seed, 0
+        self.shares = None if weights is None else weights / weights.sum()
 
     def __len__(self) -> int:
         return self.count
@@ -91,7 +95,14 @@ class SeededOrder(Sampler[tuple[int, int]]):
     def __iter__(self) -> Iterator[tuple[int, int]]:
         rng = np.random.default_rng([self.seed, self.epoch])
         seeds = rng.integers(0, 2**62, self.count)
-        yield from ((int(i), int(s)) for i, s in zip(rng.permutation(self.count), seeds, strict=True))
+        order = rng.permutation(self.count) if self.shares is None else rng.choice(self.count, self.count, p=self.shares)
+        yield from ((int(i), int(s)) for i, s in zip(order, seeds, strict=True))
+
+
+def finger_weights(labels: Sequence[PatchLabel]) -> npt.NDArray[np.float64]:
+    """Weights (N,) that bring rare fingers halfway (by square root) to the same share: renders lose more thumbs to occlusion."""
+    fingers = np.array([label.finger for label in labels])
+    return np.array([1 / np.sqrt((fingers == finger).sum()) for finger in fingers])
 
 
 def collate(samples: Sequence[Sample]) -> Sample:

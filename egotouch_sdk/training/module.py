@@ -10,7 +10,7 @@ import numpy as np
 import torch
 from lightning.pytorch.callbacks import Timer
 from torch import Tensor, nn
-from torch.nn.functional import binary_cross_entropy_with_logits, mse_loss
+from torch.nn.functional import binary_cross_entropy_with_logits, interpolate, mse_loss
 from torch.optim.swa_utils import AveragedModel, get_ema_multi_avg_fn
 
 from egotouch_sdk.evaluation.metrics import force_scores, touch_scores
@@ -41,9 +41,14 @@ class TouchModule(lightning.LightningModule):
         """The network to export."""
         return self.average.module if self.recipe.average_decay else self.network
 
+    def shrink(self, patch: Tensor) -> Tensor:
+        """Pictures at the recipe's size."""
+        size = self.recipe.picture_px
+        return patch if size == patch.shape[-1] else interpolate(patch, (size, size), mode="bilinear", antialias=True)
+
     def training_step(self, batch: Sample, _: int) -> Tensor:
         recipe = self.recipe
-        hidden = self.network.embed(batch.patch, batch.polar)
+        hidden = self.network.embed(self.shrink(batch.patch), batch.polar)
         logit, force_n = self.network.decide(hidden)
         target = batch.touch * (1 - recipe.label_smoothing) + recipe.label_smoothing / 2
         weight = 1 + batch.touch * (self.touch_weight - 1)
@@ -63,7 +68,7 @@ class TouchModule(lightning.LightningModule):
             self.average.update_parameters(self.network)
 
     def validation_step(self, batch: Sample, _: int) -> None:
-        logit, force_n = self.shipped_network.eval()(batch.patch, batch.polar)
+        logit, force_n = self.shipped_network.eval()(self.shrink(batch.patch), batch.polar)
         self.held_out.append((logit, force_n, batch.touch, batch.force_n))
 
     def on_validation_epoch_end(self) -> None:

@@ -6,6 +6,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from egotouch_sdk.errors import ConfigError
+from egotouch_sdk.observation import PATCH_PX
 
 
 @dataclass(frozen=True, slots=True)
@@ -16,11 +17,13 @@ class Recipe:
     (EgoTouch, UIST'24, section 4). The defaults keep its loss and add what a small rendered set needs.
     `epochs` counts passes over the renders, every pass with new cameras. Over `warmup_share` of the steps the learning rate
     rises, then it falls along a cosine. `average_decay` is the decay per step of the averaged weights that are shipped, 0 for none.
+    `picture_px` below 100 shrinks the pictures: 64 is 2.4 times faster and good for a first stage to start the real run from.
     `label_smoothing` moves targets towards one half. `hover_weight` weighs an auxiliary hover-height output, dropped on export.
     `held_out_share` of the patches, whole participants, choose the threshold and never train.
     """
 
     epochs: int = 16
+    picture_px: int = PATCH_PX
     batch: int = 64
     learning_rate: float = 1.5e-3
     weight_decay: float = 0.05
@@ -39,6 +42,8 @@ class Recipe:
         if self.epochs < 1 or self.batch < 2 or self.held_out_views < 1:
             counts = f"epochs={self.epochs}, batch={self.batch}, held_out_views={self.held_out_views}"
             raise ConfigError(f"recipe has {counts}; need 1, 2, 1 or more")
+        if not 32 <= self.picture_px <= PATCH_PX:
+            raise ConfigError(f"recipe has picture_px={self.picture_px}, need 32..{PATCH_PX}")
         if self.learning_rate <= 0 or min(self.weight_decay, self.force_weight, self.hover_weight) < 0:
             raise ConfigError("recipe has a learning rate that is not positive or a negative weight")
         for name in ("warmup_share", "label_smoothing", "drop_path", "dropout", "average_decay", "held_out_share"):

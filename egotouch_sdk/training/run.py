@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import json
 from dataclasses import dataclass
 from datetime import timedelta
 from pathlib import Path
@@ -17,8 +18,8 @@ from torch.utils.data import DataLoader
 
 from egotouch_sdk.errors import ConfigError, SourceError
 from egotouch_sdk.training.calibration import Calibration, calibrate
-from egotouch_sdk.training.dataset import AIR_SHARE, PatchDataset, Sample, SeededOrder, collate, fixed_views
-from egotouch_sdk.training.export import ModelFacts, write_model
+from egotouch_sdk.training.dataset import AIR_SHARE, PatchDataset, Sample, SeededOrder, collate, finger_weights, fixed_views
+from egotouch_sdk.training.export import MANIFEST_FILE, ModelFacts, write_model
 from egotouch_sdk.training.module import TouchModule
 from egotouch_sdk.training.network import TouchNetwork
 from egotouch_sdk.training.recipe import Recipe
@@ -72,7 +73,7 @@ def train(data: Path, out: Path, recipe: Recipe, machine: Machine, *, resume: bo
         load_weights(module, start_from)
     _, validation = fixed_views(split.held_out, recipe.held_out_views, recipe.seed)
     fit(module, split.train, validation, out, machine, resume)
-    return export(module, split, out)
+    return export(module, split, out, earlier_stage(start_from))
 
 
 def fit(module: TouchModule, train_patches: list[RenderedPatch], validation: Sample, out: Path, machine: Machine, resume: bool) -> None:
@@ -82,7 +83,7 @@ def fit(module: TouchModule, train_patches: list[RenderedPatch], validation: Sam
     if resume and not checkpoint.is_file():
         raise ConfigError(f"there is no checkpoint {checkpoint}", hint="Start without --resume")
     recipe = module.recipe
-    order = SeededOrder(len(train_patches), recipe.seed)
+    order = SeededOrder(len(train_patches), recipe.seed, finger_weights([patch.label for patch in train_patches]))
     batches = DataLoader(
         PatchDataset(train_patches, AIR_SHARE), recipe.batch, sampler=order, collate_fn=collate, num_workers=machine.workers,
         drop_last=len(train_patches) >= 2 * recipe.batch, persistent_workers=False, prefetch_factor=3 if machine.workers else None,
@@ -118,7 +119,13 @@ def load_weights(module: TouchModule, checkpoint: Path) -> None:
     module.average.module.load_state_dict(averaged)
 
 
-def export(module: TouchModule, split: Split, out: Path) -> Path:
+def earlier_stage(checkpoint: Path | None) -> dict[str, Any] | None:
+    """What the manifest beside a checkpoint says about its training, None where there is none."""
+    manifest = None if checkpoint is None else checkpoint.parent / MANIFEST_FILE
+    return json.loads(manifest.read_text())["training"] if manifest is not None and manifest.is_file() else None
+
+
+def export(module: TouchModule, split: Split, out: Path, earlier: dict[str, Any] | None = None) -> Path:
     """Calibrate on the held-out renders, write the model with its scores, and return its path."""
     recipe = module.recipe
     network = module.shipped_network
@@ -130,7 +137,7 @@ def export(module: TouchModule, split: Split, out: Path) -> Path:
     shipped = calibrated(network, calibration)
     logit, force_n = predict(shipped, views)
     measured = held_out_report(labels, 1 / (1 + np.exp(-logit.astype(np.float64))), force_n, calibration.down)
-    training = {
+    training: dict[str, Any] = {
         "data": "rendered by egotouch_sdk.synthetic; no pictures of people",
         "patches": len(split.train),
         "participants": len({p.label.participant for p in split.train}),
@@ -142,6 +149,8 @@ def export(module: TouchModule, split: Split, out: Path) -> Path:
         "calibration": {"scale": round(calibration.scale, 4), "shift": round(calibration.shift, 4)},
         "threshold_from": "held-out rendered participants, best balanced accuracy",
     }
+    if earlier is not None:
+        training["started_from"] = earlier
     facts = ModelFacts(f"renders-{len(split.train)}", calibration.down, calibration.up, training, {"held_out_renders": measured})
     return write_model(shipped, facts, out)
 

@@ -1,4 +1,5 @@
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -7,7 +8,7 @@ import pytest
 torch = pytest.importorskip("torch")
 
 from egotouch_sdk.errors import SourceError  # noqa: E402
-from egotouch_sdk.training.dataset import PatchDataset, SeededOrder, collate, fixed_views, view  # noqa: E402
+from egotouch_sdk.training.dataset import PatchDataset, SeededOrder, collate, finger_weights, fixed_views, view  # noqa: E402
 from egotouch_sdk.training.shards import held_out, read_folder, read_shard  # noqa: E402
 
 
@@ -101,3 +102,11 @@ def test_only_hovers_lose_their_host(shard_folder: Path) -> None:
     heights = [[float(dataset[index, seed].hover_mm) for seed in range(40)] for index in (0, 1)]
     assert set(heights[0]) == {0.0}
     assert set(heights[1]) == {8.0, 30.0}
+
+
+def test_rare_fingers_are_drawn_more_often(shard_folder: Path) -> None:
+    label = read_folder(shard_folder)[0].label
+    weights = finger_weights([replace(label, finger="thumb")] * 4 + [label] * 16)
+    draws = [index for index, _ in SeededOrder(20, 0, weights)]
+    assert weights[:4].sum() / weights.sum() == pytest.approx(1 / 3)
+    assert len(draws) == 20 and set(draws) <= set(range(20))
