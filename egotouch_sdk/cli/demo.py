@@ -7,6 +7,7 @@ import json
 import sys
 import tempfile
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from egotouch_sdk.cli.options import Subparsers, add_command, add_threads_option, add_view_options, with_threads
 from egotouch_sdk.cli.output import EventPrinter, Progress, print_json
@@ -14,6 +15,9 @@ from egotouch_sdk.cli.play import play
 from egotouch_sdk.cli.views import Views
 from egotouch_sdk.errors import SourceError
 from egotouch_sdk.touch_event import TouchEvent
+
+if TYPE_CHECKING:
+    from egotouch_sdk.evaluation.scoreboard import ClipTruth
 
 ASSETS = Path(__file__).parent.parent / "assets"
 EXAMPLES = """\
@@ -57,7 +61,7 @@ def demo(options: argparse.Namespace) -> int:
         printer(event)
 
     with VideoFileSource(clip) as source:
-        saved, views = _open_views(options, source.fps)
+        saved, views = _open_views(options, source.fps, truth)
         with views:
             outcome = play(source, pipeline, on_event, views, paced=not options.fast)
     board = score(truth.until(outcome.last_timestamp_ns) if outcome.interrupted else truth, events)
@@ -71,15 +75,20 @@ def demo(options: argparse.Namespace) -> int:
     return EXIT_INTERRUPTED if outcome.interrupted else 0
 
 
-def _open_views(options: argparse.Namespace, fps: float | None) -> tuple[Path | None, Views]:
+def _open_views(options: argparse.Namespace, fps: float | None, truth: ClipTruth) -> tuple[Path | None, Views]:
     """The view in the browser; where there is no desktop, a video file in its place."""
-    views = Views("egotouch demo", show=not options.headless, save=options.save, fps=fps, port=options.port)
+
+    def open_views(save: Path | None) -> Views:
+        show = not options.headless
+        return Views("egotouch demo", show=show, save=save, fps=fps, port=options.port, true_force_n=truth.force_at_n)
+
+    views = open_views(options.save)
     if options.headless or views.show_in_browser() or options.save:
         return options.save, views
     views.close()
     saved = Path(tempfile.gettempdir()) / "egotouch-demo.mp4"
     sys.stderr.write(f"no browser here: the annotated view goes to {saved}\n")
-    return saved, Views("egotouch demo", show=True, save=saved, fps=fps, port=options.port)
+    return saved, open_views(saved)
 
 
 def _print_scoreboard(board: dict[str, int | float | None]) -> None:

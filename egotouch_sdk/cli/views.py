@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import sys
 import webbrowser
+from collections.abc import Callable
 from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Self
@@ -14,6 +15,9 @@ if TYPE_CHECKING:
     from egotouch_sdk.frame_result import FrameResult
     from egotouch_sdk.view.server import ViewServer
     from egotouch_sdk.view.video_writer import VideoWriter
+
+#: The true force in newtons of a frame, by its number.
+TrueForce = Callable[[int], float]
 
 #: How long a run waits for the browser to show its first picture (our choice).
 BROWSER_TIMEOUT_S = 4.0
@@ -32,7 +36,10 @@ def open_browser(url: str) -> bool:
 class Views:
     """Draws frames only for those who look: browsers on the page, and the video file."""
 
-    def __init__(self, title: str, *, show: bool, save: Path | None, fps: float | None, port: int = 0) -> None:
+    def __init__(
+        self, title: str, *, show: bool, save: Path | None, fps: float | None, port: int = 0, true_force_n: TrueForce | None = None
+    ) -> None:
+        self._true_force_n = true_force_n
         self.server: ViewServer | None = None
         self._writer: VideoWriter | None = None
         self._annotator = None
@@ -60,7 +67,7 @@ class Views:
         """Take in one frame, and draw it if anybody looks."""
         if self._annotator is None:
             return
-        self._annotator.add(result)
+        self._annotator.add(result, self._true_force_n(frame.index) if self._true_force_n else None)
         watched = self.server is not None and self.server.viewers > 0
         if self._writer or watched:
             picture = self._annotator.draw(frame, result)

@@ -58,6 +58,10 @@ class ClipTruth:
             raise SourceError(f"the ground truth has another form ({error!r})", hint="Compare it with assets/demo_truth.json") from error
         return cls(fps, tuple(sorted(touches, key=lambda touch: touch.start_ns)), force_n)
 
+    def force_at_n(self, frame: int) -> float:
+        """The largest true force of any fingertip in a frame, 0 where nothing touches."""
+        return max((force_n for (_, touched), force_n in self.force_n.items() if touched == frame), default=0.0)
+
     def until(self, end_ns: int) -> ClipTruth:
         """The truth of a clip that was left at `end_ns`: touches that began by then."""
         return ClipTruth(self.fps, tuple(touch for touch in self.touches if touch.start_ns <= end_ns), self.force_n)

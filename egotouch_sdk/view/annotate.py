@@ -34,9 +34,9 @@ class Annotator:
         self._background = blank(WIDTH_PX, HEIGHT_PX)
         self._plot = ForcePlot(0, VIDEO_HEIGHT_PX, VIDEO_WIDTH_PX, HEIGHT_PX - VIDEO_HEIGHT_PX)
 
-    def add(self, result: FrameResult) -> None:
-        """Take in one frame's result."""
-        self.timeline.add(result)
+    def add(self, result: FrameResult, true_force_n: float | None = None) -> None:
+        """Take in one frame's result, and the true force where it is known."""
+        self.timeline.add(result, true_force_n)
 
     def draw(self, frame: Frame, result: FrameResult) -> Image:
         """The picture of the frame that was added last."""

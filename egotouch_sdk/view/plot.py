@@ -10,7 +10,7 @@ import numpy as np
 
 from egotouch_sdk.joints import Finger
 from egotouch_sdk.observation import FORCE_MAX_N
-from egotouch_sdk.view.palette import DOWN, GRID, HOVER, MUTED, PANEL, Colour, Image, put_text, put_text_right
+from egotouch_sdk.view.palette import DOWN, GRID, HOVER, MUTED, PANEL, TEXT, Colour, Image, put_text, put_text_right
 from egotouch_sdk.view.timeline import Timeline, TipState, Track
 
 FINGER_COLOUR: dict[Finger, Colour] = {
@@ -20,6 +20,8 @@ FINGER_COLOUR: dict[Finger, Colour] = {
     Finger.RING: (215, 130, 225),
     Finger.PINKY: (180, 220, 130),
 }
+#: Fingertips drawn at a time, those that touch first.
+CURVES = 3
 _MARGIN_LEFT = 52
 _MARGIN_TOP = 26
 _MARGIN_BOTTOM = 34
@@ -39,10 +41,12 @@ class ForcePlot:
         """Grid, one force curve per fingertip, and a bar of its state below."""
         canvas[self._region] = PANEL
         self._grid(canvas)
-        tracks = [(finger, track) for (_, finger), track in timeline.newest(3)]
+        tracks = [(finger, track) for (_, finger), track in timeline.newest(CURVES)]
+        self._legend(canvas, timeline, [finger for finger, _ in tracks])
         for row, (finger, track) in enumerate(tracks):
             self._curve(canvas, timeline, track, FINGER_COLOUR[finger])
             self._state_bar(canvas, timeline, track, self._y1 + 8 + 8 * row)
+        self._truth(canvas, timeline)
 
     def _grid(self, canvas: Image) -> None:
         put_text(canvas, "force (N)", (self._x0, self._y0 - 9), 0.42, MUTED)
@@ -51,6 +55,18 @@ class ForcePlot:
             y = self._y(force_n)
             cv2.line(canvas, (self._x0, y), (self._x1, y), GRID, 1)
             put_text_right(canvas, f"{force_n:.0f}", (self._x0 - 8, y + 4), 0.42, MUTED)
+
+    def _legend(self, canvas: Image, timeline: Timeline, fingers: Sequence[Finger]) -> None:
+        words = [(finger.value, FINGER_COLOUR[finger]) for finger in fingers]
+        if timeline.true_forces:
+            words.append(("truth", TEXT))
+        for column, (word, colour) in enumerate(words):
+            put_text(canvas, word, (self._x0 + 110 + 80 * column, self._y0 - 9), 0.42, colour)
+
+    def _truth(self, canvas: Image, timeline: Timeline) -> None:
+        if timeline.true_forces:
+            points = [(self._x(timeline, time_ns), self._y(force_n)) for time_ns, force_n in timeline.true_forces]
+            cv2.polylines(canvas, [np.array(points, np.int32)], False, TEXT, 1, cv2.LINE_AA)
 
     def _curve(self, canvas: Image, timeline: Timeline, track: Track, colour: Colour) -> None:
         run: list[tuple[int, int]] = []

@@ -66,12 +66,15 @@ class Timeline:
         self.window_ns = round(window_s * 1e9)
         self.tracks: dict[Tip, Track] = {}
         self.ticker: deque[TouchEvent] = deque(maxlen=TICKER_LINES)
+        self.true_forces: deque[tuple[int, float]] = deque()
         self.touches = 0
         self.now_ns = 0
 
-    def add(self, result: FrameResult) -> None:
-        """Take in one frame's patches, estimates and events."""
+    def add(self, result: FrameResult, true_force_n: float | None = None) -> None:
+        """Take in one frame's patches, estimates and events, and the true force where it is known."""
         self.now_ns = result.timestamp_ns
+        if true_force_n is not None:
+            self.true_forces.append((self.now_ns, true_force_n))
         for event in result.events:
             self._track((event.hand, event.finger)).state = STATE_AFTER[event.type]
             self.touches += event.type is EventType.DOWN
@@ -100,7 +103,10 @@ class Timeline:
         track.samples.append(Sample(self.now_ns, probability, force_n, track.state))
 
     def _forget(self) -> None:
+        start_ns = self.now_ns - self.window_ns
+        while self.true_forces and self.true_forces[0][0] < start_ns:
+            self.true_forces.popleft()
         for track in self.tracks.values():
-            while track.samples and track.samples[0].timestamp_ns < self.now_ns - self.window_ns:
+            while track.samples and track.samples[0].timestamp_ns < start_ns:
                 track.samples.popleft()
         self.tracks = {tip: track for tip, track in self.tracks.items() if track.samples}

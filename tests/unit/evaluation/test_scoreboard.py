@@ -87,6 +87,11 @@ def test_a_clip_left_early_is_scored_on_what_had_begun() -> None:
     assert score(truth_of((10, 20), (60, 70)).until(at_ns(30)), touch(10, 20)).missed == 0
 
 
+def test_the_true_force_of_a_frame() -> None:
+    truth = truth_of((10, 20), force_n=1.5)
+    assert [truth.force_at_n(frame) for frame in (9, 10, 20, 21)] == [0.0, 1.5, 1.5, 0.0]
+
+
 def test_the_dictionary_has_the_documented_keys() -> None:
     assert list(score(truth_of((10, 20)), touch(12, 21)).to_dict()) == [
         "touches",

@@ -83,6 +83,17 @@ def test_force_is_drawn_over_time_only_while_touching() -> None:
     assert drawn[EventType.DOWN] > drawn[EventType.HOVER_ENTER] + 1000
 
 
+def test_the_true_force_is_drawn_where_it_is_known() -> None:
+    plots = []
+    for true_force_n in (None, 3.0):
+        annotator = Annotator()
+        for index in range(30):
+            annotator.add(touching_result(index, None), true_force_n)
+        plots.append(annotator.draw(blank_frame(29), touching_result(29, None))[PLOT])
+    white = [int((plot > 150).all(axis=2).sum()) for plot in plots]
+    assert white[1] > white[0] + 100
+
+
 def test_landmarks_far_outside_the_picture_do_no_harm() -> None:
     landmarks = POINTING.landmarks_px.copy()
     landmarks[:, :2] += 1e6
