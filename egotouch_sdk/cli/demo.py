@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from egotouch_sdk.evaluation.scoreboard import ClipTruth
 
 ASSETS = Path(__file__).parent.parent / "assets"
+#: A demo that takes longer than its clip by this factor was not real time (our choice, room for start and end).
+SLOW_FACTOR = 1.2
 EXAMPLES = """\
   egotouch demo                          live view in the browser, one line per event
   egotouch demo --headless               the terminal only
@@ -70,6 +72,8 @@ def demo(options: argparse.Namespace) -> int:
     else:
         _print_scoreboard(board.to_dict())
     sys.stderr.write(f"{outcome.frames} frames in {outcome.wall_s:.1f} s ({outcome.fps:.1f} per second)\n")
+    if not options.fast and outcome.wall_s * 1e9 > SLOW_FACTOR * outcome.last_timestamp_ns:
+        sys.stderr.write("this machine did not keep up with the clip, so events came late; their times are capture times all the same\n")
     if saved:
         sys.stderr.write(f"annotated video: {saved}\n")
     return EXIT_INTERRUPTED if outcome.interrupted else 0

@@ -32,7 +32,7 @@ COMMANDS = (
 
 #: Import names of optional packages, by the extra that brings them.
 EXTRA_PACKAGES = {
-    "synthetic": ("drjit", "mitsuba", "pygltflib", "scipy", "trimesh"),
+    "synthetic": ("av", "drjit", "mitsuba", "pygltflib", "scipy", "trimesh"),
     "train": ("lightning", "onnx", "onnxscript", "sklearn", "torch"),
 }
 
