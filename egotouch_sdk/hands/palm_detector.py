@@ -58,7 +58,7 @@ def make_anchors() -> npt.NDArray[np.float32]:
 
 def decode(raw_boxes: FloatArray, logits: FloatArray, anchors: FloatArray, min_score: float) -> list[PalmDetection]:
     """Network outputs (2016, 18) and (2016,) -> palms in units of the square input (0..1), best first."""
-    chosen = logits >= np.log(min_score / (1 - min_score))
+    chosen = (logits >= np.log(min_score / (1 - min_score))) & (raw_boxes[:, 2:4] > 0).all(1)
     if not chosen.any():
         return []
     raw, centres = raw_boxes[chosen].astype(np.float64) / INPUT_PX, anchors[chosen]

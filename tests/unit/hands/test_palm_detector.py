@@ -22,6 +22,7 @@ def test_decode_places_box_and_keypoints_around_their_anchor():
     anchors = make_anchors()
     raw, logits = np.zeros((2016, 18), np.float32), np.full(2016, -50.0, np.float32)
     logits[700] = 0.0  # exactly 0.5
+    logits[900] = 9.0  # without a size: not a palm
     raw[700, :4] = (0.1 * INPUT_PX, -0.05 * INPUT_PX, 0.2 * INPUT_PX, 0.4 * INPUT_PX)
     raw[700, 4:6] = (0.01 * INPUT_PX, 0.02 * INPUT_PX)
     (palm,) = decode(raw, logits, anchors, 0.5)

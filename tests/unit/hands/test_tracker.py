@@ -164,6 +164,26 @@ def test_a_covered_hand_is_carried_for_four_frames_and_found_again(scene):
     assert sides(player.step()) == before
 
 
+def test_numbers_stay_distinct_when_both_hands_are_lost_under_a_third(scene):
+    player = Player()
+    scene.hands = {"a": (flat_hand(300, 400), 0.98), "b": (flat_hand(360, 400), 0.02)}
+    for _ in range(5):
+        player.step()
+    scene.hands = {"c": (flat_hand(330, 250, 60), 0.98)}
+    for _ in range(6):
+        hands = player.step()
+        assert len({hand.hand_id for hand in hands}) == len(hands)
+        assert len({hand.handedness for hand in hands}) == len(hands)
+
+
+def test_a_speck_is_not_a_hand(scene):
+    player = Player()
+    scene.hands = {"a": RIGHT}
+    assert len(player.step()) == 1
+    scene.hands = {"a": (flat_hand(460, 330, 0.5), 0.98)}
+    assert player.step() == ()
+
+
 def test_a_hand_that_leaves_alone_is_gone_at_once(scene):
     player = Player()
     scene.hands = {"a": RIGHT}
@@ -211,3 +231,13 @@ def test_a_model_that_was_not_built_is_named(monkeypatch, tmp_path):
     monkeypatch.setattr(palm_detector, "hand_model", lambda name: hand_model(name, tmp_path))
     with pytest.raises(ModelError, match=r"manifest\.json is missing.*pip install"):
         HandTracker()
+
+
+@pytest.mark.parametrize("size", [(32, 32), (32, 1500), (480, 640)])
+@pytest.mark.parametrize("threads", [1, 2])
+def test_real_networks_take_any_image(size, threads):
+    rng, tracker = np.random.default_rng(0), HandTracker(threads=threads, min_palm_score=0.02, min_presence=0.0)
+    images = [rng.integers(0, 256, (*size, 3), dtype=np.uint8), np.zeros((*size, 3), np.uint8), np.full((*size, 3), 255, np.uint8)]
+    for index, image in enumerate(images * 2):
+        for hand in tracker.track(Frame(image, index, index)):
+            assert np.isfinite(hand.landmarks_px).all()
