@@ -94,6 +94,13 @@ class GateConfig(_Section):
         le=1.57,
         description="How far the forearm may bend from the line middle MCP to wrist: 45 degrees of wrist motion.",
     )
+    reach_enter: float = Field(
+        default=1.02,
+        gt=0,
+        description="A finger points away from the wrist when its tip is this many times as far from it as its PIP. Rendered pointing "
+        "hands, as tracked: index 1.15 to 1.28, curled fingers 0.8 to 1.1, median 0.93 (our measurement).",
+    )
+    reach_exit: float = Field(default=0.97, gt=0, description="A finger that was active stays so down to this reach (our choice).")
     extended_enter: float = Field(
         default=0.7,
         gt=0,
@@ -114,6 +121,7 @@ class GateConfig(_Section):
     def _ordered(self) -> Self:
         _require_order(self, "near_enter_palms", "near_exit_palms")
         _require_order(self, "over_enter_palms", "over_exit_palms")
+        _require_order(self, "reach_exit", "reach_enter")
         _require_order(self, "extended_exit", "extended_enter")
         return self
 

@@ -8,7 +8,7 @@ from math import dist, hypot
 import numpy as np
 
 from egotouch_sdk.joints import HandJoint
-from egotouch_sdk.observation import FloatArray, HandObservation
+from egotouch_sdk.observation import HandObservation
 
 #: A wrist to middle-MCP axis seen shorter than this share of the palm is too foreshortened to measure by (our choice).
 MIN_AXIS_SHARE = 0.25
@@ -39,9 +39,9 @@ def px_per_mm(hand: HandObservation) -> float:
     return max(sum(dist(points[a], points[b]) for a, b in pairwise(_PALM_OUTLINE)), 1.0) / PALM_OUTLINE_MM
 
 
-def shape(hand: HandObservation) -> FloatArray:
-    """Points (21, 3) to measure the hand's pose by, in no particular unit: the metric ones, or the image's where there are none."""
-    return hand.world_mm if np.ptp(hand.world_mm, axis=0).max() > 1.0 else hand.landmarks_px
+def has_metric_landmarks(hand: HandObservation) -> bool:
+    """False for a hand from a source that knows only pixels and leaves `world_mm` on one spot."""
+    return float(np.ptp(hand.world_mm, axis=0).max()) > 1.0
 
 
 def has_axis(host: HandObservation) -> bool:

@@ -17,29 +17,36 @@ Points = list[list[float]]
 def active_fingers(hand: HandObservation, config: GateConfig, already: Collection[Finger] = ()) -> tuple[Finger, ...]:
     """Fingers that could touch, thumb first; those in `already` were active a frame ago and stay so more easily.
 
-    Measured on the metric landmarks, so a finger that points at the camera counts as well as one seen from the side.
+    Measured in three dimensions, so a finger that points at the camera counts as well as one seen from the side. Both the
+    metric and the image landmarks are asked: on a curled finger they seldom err together (our measurement on rendered hands).
     """
-    points: Points = hand_geometry.shape(hand).tolist()
-    return tuple(
-        finger
-        for finger in FINGERS
-        if points_away(points, finger)
-        and extension(points, finger) >= (config.extended_exit if finger in already else config.extended_enter)
+    views: list[Points] = [hand.landmarks_px.tolist()]
+    if hand_geometry.has_metric_landmarks(hand):
+        views.append(hand.world_mm.tolist())
+    return tuple(finger for finger in FINGERS if _is_active(views, finger, config, finger in already))
+
+
+def _is_active(views: list[Points], finger: Finger, config: GateConfig, was_active: bool) -> bool:
+    away = config.reach_exit if was_active else config.reach_enter
+    stretched = config.extended_exit if was_active else config.extended_enter
+    return (
+        sum(reach(points, finger) for points in views) >= away * len(views)
+        and min(extension(points, finger) for points in views) >= stretched
     )
 
 
-def points_away(points: Points, finger: Finger) -> bool:
-    """True when the tip is farther from the wrist than the finger's knuckle (MCP), as in every press and no fist."""
+def reach(points: Points, finger: Finger) -> float:
+    """Distance wrist to tip over wrist to second joint (PIP; thumb: MCP): above 1 the finger points away from the wrist."""
     wrist = points[HandJoint.WRIST]
-    knuckle = finger.chain[1] if finger is Finger.THUMB else finger.chain[0]
-    return dist(points[finger.tip], wrist) > dist(points[knuckle], wrist)
+    base = dist(points[finger.chain[1]], wrist)
+    return dist(points[finger.tip], wrist) / base if base > 0.0 else 0.0
 
 
 def extension(points: Points, finger: Finger) -> float:
-    """How far a finger reaches, as a share of its full reach, 0..1.
+    """How far a finger is stretched, as a share of its full length, 0..1.
 
     For the four fingers MCP to tip over the sum of the bones. A thumb stays straight when it is tucked in and instead
-    crosses the palm, so its reach is measured from the pinky's MCP.
+    crosses the palm, so its length is measured from the pinky's MCP.
     """
     _, second, third, tip = finger.chain
     if finger is Finger.THUMB:
@@ -48,5 +55,5 @@ def extension(points: Points, finger: Finger) -> float:
     else:
         base = finger.chain[0]
         joints = finger.chain
-    reach = sum(dist(points[a], points[b]) for a, b in pairwise(joints))
-    return dist(points[base], points[tip]) / reach if reach > 0.0 else 0.0
+    length = sum(dist(points[a], points[b]) for a, b in pairwise(joints))
+    return dist(points[base], points[tip]) / length if length > 0.0 else 0.0
