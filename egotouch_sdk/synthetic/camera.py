@@ -60,6 +60,7 @@ def photograph(layers: LightLayers, settings: CameraSettings, rng: np.random.Gen
     light = _warp(np.asarray(layers.light, np.float32), to_layers)
     albedo = _warp(SRGB_TO_LINEAR[layers.albedo], to_layers)
     segment = np.asarray(_warp(layers.segment, to_layers, cv2.INTER_NEAREST), np.uint8)
+    light = _deepen_shade(_smooth_within(light, segment, settings.sample_blur_px), segment, settings.occlusion_power)
     image = _skin(albedo, segment, settings) * _illuminate(light, segment, settings)
     if settings.distractor is not None:
         image = _add_distractor(image, segment, settings.distractor)
@@ -84,6 +85,28 @@ def _warp(
     size = (PATCH_PX, PATCH_PX)
     flags = interpolation | cv2.WARP_INVERSE_MAP
     return np.asarray(cv2.warpAffine(image, to_image, size, flags=flags, borderMode=cv2.BORDER_REPLICATE), np.float32)
+
+
+def _smooth_within(light: FloatImage, segment: npt.NDArray[np.uint8], sigma_px: float) -> FloatImage:
+    """Blur inside the hand and outside it separately, so that the light at the finger's outline keeps its edge."""
+    hand = (segment == TOUCHING_HAND).astype(np.float32)
+    smooth = np.empty_like(light)
+    for part in (hand, 1 - hand):
+        inside = part > 0
+        cover = cv2.GaussianBlur(part, (0, 0), sigma_px)[..., None]
+        blurred = cv2.GaussianBlur(light * part[..., None], (0, 0), sigma_px) / np.maximum(cover, 1e-3)
+        smooth[inside] = blurred[inside]
+    return smooth
+
+
+def _deepen_shade(light: FloatImage, segment: npt.NDArray[np.uint8], power: float) -> FloatImage:
+    """Raise each layer to `power` below its level on open skin (80th percentile), leaving what is brighter."""
+    if power == 1.0:
+        return light
+    skin = light[segment != BACKGROUND]
+    open_level = np.maximum(np.percentile(skin[::7] if len(skin) > 50 else light.reshape(-1, 3), 80, axis=0), 1e-3)
+    shade = np.clip(light / open_level, 0.02, 1.0)
+    return np.asarray(light * cv2.pow(shade.astype(np.float32), power - 1), np.float32)
 
 
 def _illuminate(light: FloatImage, segment: npt.NDArray[np.uint8], settings: CameraSettings) -> FloatImage:

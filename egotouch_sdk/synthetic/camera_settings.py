@@ -42,6 +42,8 @@ NATIVE_RANGE_PX = (20.0, 130.0)
 class CameraSettings:
     """One camera, room, skin and tracker error. Colours are linear RGB gains; lengths are patch pixels (2.5 per mm).
 
+    `occlusion_power` deepens shade: each layer is raised to it where it is below the open level, as from smaller lights overhead
+    and darker surroundings. `sample_blur_px` smooths the renderer's sampling noise before that, never across an outline.
     `light_gains` (3, 3): RGB gain of the key, window and ambient layers. `crevice_tint` (3,): exponents added per channel
     where light is scarce (negative = lighter there). `tone_power` bends albedo (above 1 = darker skin), `tone_gains` (3, 3): RGB gain of
     background, host and touching hand. `native_px` is the number of camera pixels across the patch.
@@ -49,6 +51,8 @@ class CameraSettings:
     exposure gives the mean of the skin. `distractor` is None or (row, side, width, height, level) beside the finger.
     """
 
+    occlusion_power: float
+    sample_blur_px: float
     light_gains: npt.NDArray[np.float32]
     crevice_tint: npt.NDArray[np.float32]
     tone_power: float
@@ -78,6 +82,8 @@ def draw_settings(rng: np.random.Generator) -> CameraSettings:
     """One random draw; it never looks at the label, so that neither blur nor light nor framing can stand for touch."""
     mix = LightMix(str(rng.choice(list(MIX_SHARES), p=list(MIX_SHARES.values()))))
     return CameraSettings(
+        occlusion_power=1.0 if rng.random() < 0.3 else float(rng.uniform(1.0, 3.2)),
+        sample_blur_px=float(rng.uniform(0.7, 1.8)),
         light_gains=_light_gains(rng, mix),
         crevice_tint=_crevice_tint(rng),
         tone_power=_tone_power(rng),

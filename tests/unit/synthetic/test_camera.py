@@ -24,7 +24,8 @@ def layers(side: int = SIDE) -> LightLayers:
 def plain(seed: int = 0) -> CameraSettings:
     """A camera that adds nothing, to change one thing at a time."""
     return replace(
-        draw_settings(np.random.default_rng(seed)), shift_px=(0.0, 0.0), turn_rad=0.0, scale=1.0, native_px=100,
+        draw_settings(np.random.default_rng(seed)), occlusion_power=1.0, sample_blur_px=0.5,
+        shift_px=(0.0, 0.0), turn_rad=0.0, scale=1.0, native_px=100,
         finger_motion_px=(0.0, 0.0), camera_motion_px=(0.0, 0.0), optical_blur_px=0.5, noise=1e-6, sharpening=0.0, jpeg_quality=95,
         distractor=None, haze=0.0, contrast=1.0, saturation=1.0, skin_level=0.2, shoulder=0.0, gamma=2.2, tone_power=1.0,
         white_balance=np.ones(3, np.float32), tone_gains=np.ones((3, 3), np.float32),
@@ -118,3 +119,30 @@ def test_layers_that_do_not_fit_are_refused(bad: str) -> None:
     }[bad]
     with pytest.raises(FrameError):
         LightLayers(light, albedo, segment)
+
+
+def test_deeper_shade_darkens_the_crevice_and_not_open_skin() -> None:
+    shaded = layers()
+    shaded.light[100:110] *= 0.5
+    crevice, open_skin = np.s_[80:86, 5:20], np.s_[50:56, 5:20]
+
+    def ratio(power: float) -> float:
+        picture = photograph(shaded, replace(plain(), occlusion_power=power), np.random.default_rng(0)).astype(float)
+        return float(picture[crevice].mean() / picture[open_skin].mean())
+
+    assert ratio(1.0) == pytest.approx(0.5 ** (1 / 2.2), rel=0.1)
+    assert ratio(2.5) < 0.75 * ratio(1.0)
+
+
+def test_sampling_noise_is_smoothed_and_the_outline_keeps_its_edge() -> None:
+    noisy = layers()
+    noisy.light[...] = np.where((noisy.segment == 2)[..., None], 1.0, 0.4)
+    noisy.light[...] += np.random.default_rng(0).normal(0, 0.1, noisy.light.shape)
+
+    def shot(blur_px: float) -> np.ndarray:
+        return photograph(noisy, replace(plain(), sample_blur_px=blur_px), np.random.default_rng(0)).astype(float)
+
+    flat = np.s_[60:90, 2:15]
+    assert shot(2.0)[flat][..., 1].std() < 0.7 * shot(0.3)[flat][..., 1].std()
+    step = [np.abs(np.diff(shot(blur)[70:90, 15:40].mean((0, 2)))).max() for blur in (0.3, 2.0)]
+    assert step[1] > 0.8 * step[0]
