@@ -63,7 +63,8 @@ def compare(hands: tuple[HandObservation, ...], expected: list[dict[str, Any]]) 
 
 
 def check(model: str, reference_name: str, files: list[Path], at_least: int) -> None:
-    reference = json.loads((HERE / reference_name).read_text())
+    stored = HERE / reference_name
+    reference = json.loads(stored.read_text()) if stored.is_file() else {"frames": {}}
     tracker, pairs, unequal, count = HandTracker(model=model), [], [], 0
     for name, frame, expected in frames(reference, files):
         tracker.reset()
@@ -71,6 +72,7 @@ def check(model: str, reference_name: str, files: list[Path], at_least: int) -> 
         pairs += [(name, *pair) for pair in found]
         unequal += [] if equal else [name]
         count += 1
+    assert count, f"{reference_name} knows none of these files: run make_reference.py for them"
     distances = [distance for _, distance, _ in pairs]
     print(f"{model}: {len(pairs)} hands in {count} frames, palms away: median {np.median(distances):.4f}, worst {max(distances):.4f}")
     assert len(pairs) >= at_least
