@@ -13,6 +13,9 @@ from egotouch_sdk.observation import HandObservation
 
 Points = list[list[float]]
 
+_CHAINS = {finger: tuple(int(joint) for joint in finger.chain) for finger in FINGERS}
+_PINKY_MCP = int(HandJoint.PINKY_MCP)
+
 
 def active_fingers(hand: HandObservation, config: GateConfig, already: Collection[Finger] = ()) -> tuple[Finger, ...]:
     """Fingers that could touch, thumb first; those in `already` were active a frame ago and stay so more easily.
@@ -37,9 +40,10 @@ def _is_active(views: list[Points], finger: Finger, config: GateConfig, was_acti
 
 def reach(points: Points, finger: Finger) -> float:
     """Distance wrist to tip over wrist to second joint (PIP; thumb: MCP): above 1 the finger points away from the wrist."""
+    _, second, _, tip = _CHAINS[finger]
     wrist = points[HandJoint.WRIST]
-    base = dist(points[finger.chain[1]], wrist)
-    return dist(points[finger.tip], wrist) / base if base > 0.0 else 0.0
+    base = dist(points[second], wrist)
+    return dist(points[tip], wrist) / base if base > 0.0 else 0.0
 
 
 def extension(points: Points, finger: Finger) -> float:
@@ -48,12 +52,8 @@ def extension(points: Points, finger: Finger) -> float:
     For the four fingers MCP to tip over the sum of the bones. A thumb stays straight when it is tucked in and instead
     crosses the palm, so its length is measured from the pinky's MCP.
     """
-    _, second, third, tip = finger.chain
+    joints = _CHAINS[finger]
     if finger is Finger.THUMB:
-        base = HandJoint.PINKY_MCP
-        joints: tuple[HandJoint, ...] = (base, second, third, tip)
-    else:
-        base = finger.chain[0]
-        joints = finger.chain
+        joints = (_PINKY_MCP, *joints[1:])
     length = sum(dist(points[a], points[b]) for a, b in pairwise(joints))
-    return dist(points[base], points[tip]) / length if length > 0.0 else 0.0
+    return dist(points[joints[0]], points[joints[-1]]) / length if length > 0.0 else 0.0
