@@ -75,14 +75,15 @@ class Camera:
     height_px: int
 
     def project(self, points: Array) -> Array:
-        """Pixel coordinates and depth (m) of points (n, 3): array (n, 3)."""
+        """Pixel coordinates (whole numbers are pixel centres) and depth (m) of points (n, 3): array (n, 3)."""
         forward = unit(self.target - self.origin)
         right = unit(np.cross(forward, self.up))
         down = -np.cross(right, forward)
         rel = np.atleast_2d(points) - self.origin
         depth = rel @ forward
         k = self.width_px / 2 / np.tan(self.fov_rad / 2)
-        return np.stack([self.width_px / 2 + k * (rel @ right) / depth, self.height_px / 2 + k * (rel @ down) / depth, depth], 1)
+        x, y = k * (rel @ right) / depth, k * (rel @ down) / depth
+        return np.stack([(self.width_px - 1) / 2 + x, (self.height_px - 1) / 2 + y, depth], 1)
 
 
 @dataclass(frozen=True, slots=True)
