@@ -7,12 +7,12 @@ HEAVY = ("cv2", "lightning", "mitsuba", "onnxruntime", "pydantic", "torch", "web
 
 
 def loaded_by(statement: str) -> tuple[float, set[str]]:
-    """Seconds that a statement takes in a fresh interpreter (best of three), and the heavy modules it loads."""
+    """Processor seconds that a statement takes in a fresh interpreter (best of three), and the heavy modules it loads."""
     program = f"""
 import sys, time
-start = time.perf_counter()
+start = time.process_time()
 {statement}
-print(time.perf_counter() - start, *(name for name in {HEAVY!r} if name in sys.modules))
+print(time.process_time() - start, *(name for name in {HEAVY!r} if name in sys.modules))
 """
     runs = [
         subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True, timeout=60).stdout.split()

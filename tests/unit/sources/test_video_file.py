@@ -60,7 +60,7 @@ def test_a_truncated_stream_delivers_what_decodes_and_warns(write_video) -> None
     path.write_bytes(path.read_bytes()[: path.stat().st_size // 2])
     with VideoFileSource(path) as source, pytest.warns(SourceWarning, match="of 40 frames decoded"):
         frames = list(source)
-    assert 10 <= len(frames) <= 30
+    assert 5 <= len(frames) <= 30
     assert [frame.index for frame in frames] == list(range(len(frames)))
 
 
