@@ -59,9 +59,7 @@ def hands(options: argparse.Namespace) -> int:
 
     config = config_from(options).hands
     with open_from(options) as source:
-        tracker = HandTracker(
-            max_hands=config.max_hands, mirrored=config.mirrored, threads=config.threads, palm_every=config.palm_every
-        )
+        tracker = HandTracker(**config.model_dump())
         progress = Progress(source.frame_count, always=options.progress)
         frames = seen = 0
         for frame in source:
