@@ -50,7 +50,7 @@ class Split:
     @classmethod
     def of(cls, patches: list[RenderedPatch], recipe: Recipe) -> Split:
         """Split by participant; raises `SourceError` when a side would lack touches or hovers."""
-        marked = held_out([patch.label for patch in patches], recipe.held_out_share, recipe.seed)
+        marked = held_out([patch.label for patch in patches], recipe.held_out_share)
         split = cls([p for p, m in zip(patches, marked, strict=True) if not m], [p for p, m in zip(patches, marked, strict=True) if m])
         for name, side in (("training", split.train), ("held-out", split.held_out)):
             if len({patch.label.touch for patch in side}) < 2:

@@ -94,16 +94,17 @@ def read_folder(folder: Path) -> list[RenderedPatch]:
     return patches
 
 
-def held_out(labels: Sequence[PatchLabel], share: float, seed: int) -> npt.NDArray[np.bool_]:
+def held_out(labels: Sequence[PatchLabel], share: float) -> npt.NDArray[np.bool_]:
     """Mark (N,) the patches of whole participants held out until at least `share` of all patches is reached.
 
-    With fewer than three participants whole scenes are held out instead. Participants are taken in seeded random order.
+    The participants with the highest numbers are taken, so that renders added between two stages of training, which bring new
+    participants, never move one from training to the held-out side. With fewer than three participants whole scenes are taken instead.
     """
-    participants = [str(label.participant) for label in labels]
-    groups = np.array(participants if len(set(participants)) >= 3 else [label.scene for label in labels])
-    order = np.random.default_rng(seed).permutation(np.unique(groups))
+    participants = [label.participant for label in labels]
+    _, scenes = np.unique([label.scene for label in labels], return_inverse=True)
+    groups = np.array(participants) if len(set(participants)) >= 3 else scenes
     marked = np.zeros(len(labels), bool)
-    for group in order[:-1]:
+    for group in np.unique(groups)[:0:-1]:
         if marked.sum() >= share * len(labels):
             break
         marked |= groups == group
