@@ -8,6 +8,9 @@ import numpy.typing as npt
 
 from egotouch_sdk.synthetic.camera import BACKGROUND, TOUCHING_HAND, LightLayers
 
+#: Distance of the clutter behind the fingertip.
+FAR_MM = 300.0
+
 
 def in_the_air(layers: LightLayers, rng: np.random.Generator) -> LightLayers:
     """The same hand before random clutter, everything else gone; only for hovers, since it touches nothing then."""
@@ -17,7 +20,8 @@ def in_the_air(layers: LightLayers, rng: np.random.Generator) -> LightLayers:
     level = np.float32(rng.uniform(0.3, 1.0)) * (1 + 0.3 * _smooth(side, 3, rng)[..., None])
     light = np.where(hand[..., None], layers.light, np.clip(level, 0.05, 1.5))
     segment = np.where(hand, TOUCHING_HAND, BACKGROUND)
-    return LightLayers(light.astype(np.float16), albedo.astype(np.uint8), segment.astype(np.uint8))
+    depth_mm = np.where(hand, layers.depth_mm, FAR_MM)
+    return LightLayers(light.astype(np.float16), albedo.astype(np.uint8), segment.astype(np.uint8), depth_mm.astype(np.float16))
 
 
 def clutter(side_px: int, rng: np.random.Generator) -> npt.NDArray[np.uint8]:

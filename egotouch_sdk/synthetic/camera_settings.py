@@ -44,6 +44,7 @@ class CameraSettings:
 
     `occlusion_power` deepens shade: each layer is raised to it where it is below the open level, as from smaller lights overhead
     and darker surroundings. `sample_blur_px` smooths the renderer's sampling noise before that, never across an outline.
+    `crease_depth` 0..1 and `crease_width_px` darken the groove where skin wells up against the finger's flank.
     `light_gains` (3, 3): RGB gain of the key, window and ambient layers. `crevice_tint` (3,): exponents added per channel
     where light is scarce (negative = lighter there). `tone_power` bends albedo (above 1 = darker skin), `tone_gains` (3, 3): RGB gain of
     background, host and touching hand. `native_px` is the number of camera pixels across the patch.
@@ -53,6 +54,8 @@ class CameraSettings:
 
     occlusion_power: float
     sample_blur_px: float
+    crease_depth: float
+    crease_width_px: float
     light_gains: npt.NDArray[np.float32]
     crevice_tint: npt.NDArray[np.float32]
     tone_power: float
@@ -84,6 +87,8 @@ def draw_settings(rng: np.random.Generator) -> CameraSettings:
     return CameraSettings(
         occlusion_power=1.0 if rng.random() < 0.3 else float(rng.uniform(1.0, 3.2)),
         sample_blur_px=float(rng.uniform(0.7, 1.8)),
+        crease_depth=0.0 if rng.random() < 0.25 else float(rng.uniform(0.15, 0.75)),
+        crease_width_px=float(rng.uniform(1.0, 2.6)),
         light_gains=_light_gains(rng, mix),
         crevice_tint=_crevice_tint(rng),
         tone_power=_tone_power(rng),

@@ -73,14 +73,14 @@ def read_shard(path: Path) -> list[RenderedPatch]:
     """All patches of one `.npz` shard; raises `SourceError` when it is not a readable shard."""
     try:
         with path.open("rb") as file, np.load(file) as arrays:
-            light, albedo, segment = arrays["light"], arrays["albedo"], arrays["segment"]
+            light, albedo, segment, depth_mm = (arrays[name] for name in ("light", "albedo", "segment", "depth_mm"))
             metas = json.loads(str(arrays["meta"]))
     except (OSError, ValueError, KeyError, EOFError, BadZipFile) as problem:
         raise SourceError(f"{path.name} is not a readable shard ({problem})", hint="Delete it and render it again") from problem
-    if len({len(light), len(albedo), len(segment), len(metas)}) != 1:
+    if len({len(light), len(albedo), len(segment), len(depth_mm), len(metas)}) != 1:
         raise SourceError(f"{path.name} holds arrays of different lengths", hint="Delete it and render it again")
     return [
-        RenderedPatch(LightLayers(light[i], albedo[i], segment[i]), PatchLabel.from_meta(meta))
+        RenderedPatch(LightLayers(light[i], albedo[i], segment[i], depth_mm[i]), PatchLabel.from_meta(meta))
         for i, meta in enumerate(metas)
         if np.isfinite(light[i]).all()
     ]

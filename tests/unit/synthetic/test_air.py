@@ -8,11 +8,14 @@ def test_the_hand_stays_and_the_host_is_gone() -> None:
     rng = np.random.default_rng(0)
     segment = np.ones((144, 144), np.uint8)
     segment[70:, 50:90] = 2
-    before = LightLayers(rng.random((144, 144, 3)).astype(np.float16), rng.integers(0, 256, (144, 144, 3), np.uint8), segment)
+    before = LightLayers(
+        rng.random((144, 144, 3)).astype(np.float16), rng.integers(0, 256, (144, 144, 3), np.uint8), segment, np.zeros((144, 144))
+    )
     after = in_the_air(before, np.random.default_rng(1))
     hand = segment == 2
     assert np.array_equal(after.albedo[hand], before.albedo[hand]) and np.array_equal(after.light[hand], before.light[hand])
     assert set(np.unique(after.segment)) == {0, 2}
+    assert (after.depth_mm[~hand] > 100).all() and (after.depth_mm[hand] == 0).all()
     assert (after.albedo[~hand] != before.albedo[~hand]).mean() > 0.9
     assert photograph_randomly(after, rng).shape == (100, 100, 3)
 

@@ -11,20 +11,21 @@ from egotouch_sdk.synthetic.camera_settings import CameraSettings, draw_settings
 SIDE = 144
 
 
-def layers(side: int = SIDE) -> LightLayers:
+def layers(side: int = SIDE, step_mm: float = 10.0) -> LightLayers:
     y, x = np.mgrid[:side, :side] - side / 2
     finger = (np.abs(x) < 25) & (y > -10)
     segment = np.where(finger, 2, 1).astype(np.uint8)
     segment[: side // 10] = 0
     albedo = np.where(segment[..., None] == 2, [205, 150, 125], [215, 150, 140]).astype(np.uint8)
     light = np.repeat((0.8 + 0.2 * x / side)[..., None], 3, 2).astype(np.float16)
-    return LightLayers(light, albedo, segment)
+    depth_mm = np.where(segment == 2, 0.0, step_mm).astype(np.float16)
+    return LightLayers(light, albedo, segment, depth_mm)
 
 
 def plain(seed: int = 0) -> CameraSettings:
     """A camera that adds nothing, to change one thing at a time."""
     return replace(
-        draw_settings(np.random.default_rng(seed)), occlusion_power=1.0, sample_blur_px=0.5,
+        draw_settings(np.random.default_rng(seed)), occlusion_power=1.0, sample_blur_px=0.5, crease_depth=0.0,
         shift_px=(0.0, 0.0), turn_rad=0.0, scale=1.0, native_px=100,
         finger_motion_px=(0.0, 0.0), camera_motion_px=(0.0, 0.0), optical_blur_px=0.5, noise=1e-6, sharpening=0.0, jpeg_quality=95,
         distractor=None, haze=0.0, contrast=1.0, saturation=1.0, skin_level=0.2, shoulder=0.0, gamma=2.2, tone_power=1.0,
@@ -118,7 +119,7 @@ def test_layers_that_do_not_fit_are_refused(bad: str) -> None:
         "shape": (good.light[:-1], good.albedo, good.segment),
     }[bad]
     with pytest.raises(FrameError):
-        LightLayers(light, albedo, segment)
+        LightLayers(light, albedo, segment, good.depth_mm[: len(segment), : len(segment)])
 
 
 def test_deeper_shade_darkens_the_crevice_and_not_open_skin() -> None:
@@ -146,3 +147,17 @@ def test_sampling_noise_is_smoothed_and_the_outline_keeps_its_edge() -> None:
     assert shot(2.0)[flat][..., 1].std() < 0.7 * shot(0.3)[flat][..., 1].std()
     step = [np.abs(np.diff(shot(blur)[70:90, 15:40].mean((0, 2)))).max() for blur in (0.3, 2.0)]
     assert step[1] > 0.8 * step[0]
+
+
+def test_a_groove_darkens_the_outline_where_skin_reaches_up_to_the_finger() -> None:
+    outline, open_skin = np.s_[70:90, 23:25], np.s_[70:90, 5:12]
+
+    def darkness(step_mm: float) -> float:
+        camera = replace(plain(), crease_depth=0.6, crease_width_px=1.5)
+        picture = photograph(layers(step_mm=step_mm), camera, np.random.default_rng(0)).astype(float)
+        return float(picture[outline].mean() / picture[open_skin].mean())
+
+    firm, light, hover = darkness(0.0), darkness(4.0), darkness(9.0)
+    assert firm < 0.85
+    assert firm < light < hover
+    assert hover > 0.97
