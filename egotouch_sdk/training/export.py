@@ -14,13 +14,11 @@ import torch
 
 from egotouch_sdk.errors import ModelError
 from egotouch_sdk.observation import PATCH_PX
-from egotouch_sdk.training.model_card import model_card
+from egotouch_sdk.training.model_card import CARD_FILE, MANIFEST_FILE, model_card
 from egotouch_sdk.training.network import TouchNetwork, count_parameters, reparameterise
 
 MODEL_FILE = "touch.onnx"
-MANIFEST_FILE = "touch.json"
 GOLDEN_FILE = "touch_golden.npz"
-CARD_FILE = "MODEL_CARD.md"
 #: Parameters of the paper's model while training and as shipped, in millions (EgoTouch, UIST'24, section 4).
 PAPER_PARAMETERS_M = {"trained": 4.1, "shipped": 3.8}
 #: Largest difference between torch and ONNX outputs that counts as the same model (our choice; float32 rounding is about 1e-6).

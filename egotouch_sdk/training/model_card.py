@@ -3,7 +3,14 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
+from pathlib import Path
 from typing import Any
+
+from egotouch_sdk.errors import ModelError
+
+MANIFEST_FILE = "touch.json"
+CARD_FILE = "MODEL_CARD.md"
 
 _INTRO = """# Touch model
 
@@ -40,7 +47,27 @@ def model_card(manifest: dict[str, Any]) -> str:
     )
     if not manifest["training"]:
         return text + "\nRandom weights: this file only lets the pipeline run. Its answers mean nothing.\n"
-    return text + _LIMITS + _section("Training", manifest["training"]) + _section("Measured", manifest["measured"])
+    text += _LIMITS + _section("Training", manifest["training"])
+    text += "".join(_section(f"Measured: {name.replace('_', ' ')}", facts) for name, facts in manifest["measured"].items())
+    if manifest.get("history"):
+        text += "\n## What was tried\n\n" + "".join(f"- {line}\n" for line in manifest["history"])
+    return text
+
+
+def add_measurements(folder: Path, measured: dict[str, Any], history: Sequence[str] = ()) -> None:
+    """Add figures measured after training, and what was tried before, to the manifest and the model card in `folder`.
+
+    The model file itself is not touched. Raises `ModelError` when there is no manifest.
+    """
+    path = folder / MANIFEST_FILE
+    if not path.is_file():
+        raise ModelError(f"there is no {MANIFEST_FILE} in {folder}", hint="Train or export a model there first")
+    manifest = json.loads(path.read_text())
+    manifest["measured"].update(measured)
+    if history:
+        manifest["history"] = list(history)
+    path.write_text(json.dumps(manifest, indent=2) + "\n")
+    (folder / CARD_FILE).write_text(model_card(manifest))
 
 
 def _section(title: str, facts: dict[str, Any]) -> str:

@@ -19,7 +19,8 @@ from torch.utils.data import DataLoader
 from egotouch_sdk.errors import ConfigError, SourceError
 from egotouch_sdk.training.calibration import Calibration, calibrate
 from egotouch_sdk.training.dataset import AIR_SHARE, PatchDataset, Sample, SeededOrder, collate, finger_weights, fixed_views
-from egotouch_sdk.training.export import MANIFEST_FILE, ModelFacts, write_model
+from egotouch_sdk.training.export import ModelFacts, write_model
+from egotouch_sdk.training.model_card import MANIFEST_FILE
 from egotouch_sdk.training.module import TouchModule
 from egotouch_sdk.training.network import TouchNetwork
 from egotouch_sdk.training.recipe import Recipe

@@ -12,6 +12,7 @@ from egotouch_sdk.inference import create_session  # noqa: E402
 from egotouch_sdk.model_store import MODELS_DIR  # noqa: E402
 from egotouch_sdk.touch import TouchModel  # noqa: E402
 from egotouch_sdk.training.export import ModelFacts, check_parity, run_torch, write_model  # noqa: E402
+from egotouch_sdk.training.model_card import add_measurements  # noqa: E402
 from egotouch_sdk.training.network import TouchNetwork  # noqa: E402
 
 pytestmark = pytest.mark.filterwarnings("ignore::DeprecationWarning", "ignore:.*legacy.*:UserWarning", "ignore::torch.jit.TracerWarning")
@@ -29,7 +30,9 @@ def network() -> TouchNetwork:
 
 @pytest.fixture(scope="module")
 def model_file(network: TouchNetwork, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return write_model(network, ModelFacts("test", 0.5, 0.4, {"data": "noise"}, {"auroc": 0.5}), tmp_path_factory.mktemp("model"))
+    return write_model(
+        network, ModelFacts("test", 0.5, 0.4, {"data": "noise"}, {"held_out": {"auroc": 0.5}}), tmp_path_factory.mktemp("model")
+    )
 
 
 @pytest.mark.parametrize("count", [1, 3, 7])
@@ -66,3 +69,17 @@ def test_the_shipped_file_still_gives_its_golden_outputs() -> None:
     check_parity(MODELS_DIR / "touch.onnx", golden["patch"], golden["polar"], (golden["touch_logit"], golden["force_n"]))
     parameters = json.loads((MODELS_DIR / "touch.json").read_text())["parameters"]
     assert (parameters["trained"], parameters["shipped"]) == (3_370_896, 3_338_880)
+
+
+def test_later_figures_join_manifest_and_card(model_file: Path) -> None:
+    add_measurements(model_file.parent, {"real": {"auroc": 0.875}}, ["first try | too blurry"])
+    manifest = json.loads(model_file.with_suffix(".json").read_text())
+    assert manifest["measured"] == {"held_out": {"auroc": 0.5}, "real": {"auroc": 0.875}}
+    card = (model_file.parent / "MODEL_CARD.md").read_text()
+    assert "0.875" in card and "- first try | too blurry" in card
+    TouchModel(model_file)
+
+
+def test_figures_need_a_manifest(tmp_path: Path) -> None:
+    with pytest.raises(ModelError, match=r"no touch\.json"):
+        add_measurements(tmp_path, {})
