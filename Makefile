@@ -8,6 +8,13 @@ PYTHON ?= $(shell for p in python3 python3.13 python3.12 python3.11; do \
 # Options for pytest, for example `make test PYTEST_ARGS="-k sources -x"`.
 PYTEST_ARGS ?= -n 2 --dist loadfile -q
 
+# What the tests need; CI also runs the training tests, with one pinned PyTorch (elsewhere they run where PyTorch is installed).
+EXTRAS ?= dev,synthetic
+ifdef CI
+EXTRAS := dev,synthetic,train
+TORCH  ?= torch==2.13.0
+endif
+
 # The hand networks are made while the package is installed; when they are gone, install again.
 HANDS := egotouch_sdk/models/hands/manifest.json
 AGAIN := $(if $(wildcard $(HANDS)),,FORCE)
@@ -46,6 +53,6 @@ $(VENV)/.run: $(BIN)/python $(PARTS) $(AGAIN)
 	@touch $@
 
 $(VENV)/.dev: $(BIN)/python $(PARTS) $(AGAIN)
-	@echo "Installing the package with its development tools into $(VENV) (about a minute) ..."
-	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[dev]'
+	@echo "Installing the package with its development tools into $(VENV) (a minute or two) ..."
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[$(EXTRAS)]' $(TORCH)
 	@touch $@ $(VENV)/.run

@@ -20,7 +20,7 @@ EXAMPLES = """\
   egotouch doctor --json       the same for programs
 """
 RUNTIME_PACKAGES = ("numpy", "onnxruntime", "opencv-python-headless", "protobuf", "pydantic", "websockets")
-EXTRAS = {"synthetic": ("av", "mitsuba", "pygltflib", "scipy"), "train": ("torch", "lightning", "onnx", "scikit-learn")}
+EXTRAS = {"synthetic": ("av", "mitsuba", "pygltflib", "scipy"), "train": ("torch", "lightning", "onnx")}
 #: Camera indexes tried where the system does not list its cameras.
 CAMERAS_TRIED = 3
 

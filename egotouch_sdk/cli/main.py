@@ -32,8 +32,8 @@ COMMANDS = (
 
 #: Import names of optional packages, by the extra that brings them.
 EXTRA_PACKAGES = {
-    "synthetic": ("av", "drjit", "mitsuba", "pygltflib", "scipy", "trimesh"),
-    "train": ("lightning", "onnx", "onnxscript", "sklearn", "torch"),
+    "synthetic": ("av", "drjit", "mitsuba", "pygltflib", "scipy"),
+    "train": ("lightning", "onnx", "torch"),
 }
 
 EXAMPLES = """\

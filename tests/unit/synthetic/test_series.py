@@ -10,7 +10,7 @@ from egotouch_sdk.synthetic.patches_job import participant
 from egotouch_sdk.synthetic.render import SEGMENT_HOST, SEGMENT_TOUCHING
 from egotouch_sdk.synthetic.series import SIDE_PX, draw_stage, render_series
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.filterwarnings("ignore:No LLVM")]
 
 
 @pytest.fixture(scope="module")
