@@ -20,13 +20,13 @@ class LightMix(StrEnum):
 
 
 #: Share of each mix (our choice: mostly indoor soft light, as the recipe of our rendering study).
-MIX_SHARES = {LightMix.SOFT: 0.35, LightMix.MIXED: 0.35, LightMix.KEY: 0.15, LightMix.DIM: 0.15}
+MIX_SHARES = {LightMix.SOFT: 0.45, LightMix.MIXED: 0.30, LightMix.KEY: 0.12, LightMix.DIM: 0.13}
 #: Weight ranges of (key, window, ambient) for each mix.
 MIX_WEIGHTS: dict[LightMix, tuple[tuple[float, float], tuple[float, float], tuple[float, float]]] = {
-    LightMix.SOFT: ((0.0, 0.1), (0.1, 0.6), (0.5, 1.0)),
+    LightMix.SOFT: ((0.0, 0.05), (0.0, 0.4), (0.6, 1.0)),
     LightMix.MIXED: ((0.1, 0.7), (0.1, 0.8), (0.2, 0.9)),
     LightMix.KEY: ((0.8, 1.6), (0.0, 0.3), (0.1, 0.4)),
-    LightMix.DIM: ((0.0, 0.5), (0.0, 0.5), (0.2, 0.8)),
+    LightMix.DIM: ((0.0, 0.3), (0.0, 0.4), (0.3, 0.8)),
 }
 #: Largest tip error of the hand tracker in patch pixels, 12 px = 4.8 mm (its p90 in our rendering study was 3.9 to 6.5 mm).
 MAX_SHIFT_PX = 12.0
@@ -87,7 +87,7 @@ def draw_settings(rng: np.random.Generator) -> CameraSettings:
     return CameraSettings(
         occlusion_power=1.0 if rng.random() < 0.3 else float(rng.uniform(1.0, 3.2)),
         sample_blur_px=float(rng.uniform(0.7, 1.8)),
-        crease_depth=0.0 if rng.random() < 0.25 else float(rng.uniform(0.15, 0.75)),
+        crease_depth=0.0 if rng.random() < 0.1 else float(rng.uniform(0.25, 0.8)),
         crease_width_px=float(rng.uniform(1.0, 2.6)),
         light_gains=_light_gains(rng, mix),
         crevice_tint=_crevice_tint(rng),
