@@ -65,6 +65,7 @@ def photograph(layers: LightLayers, settings: CameraSettings, rng: np.random.Gen
     albedo = _warp(SRGB_TO_LINEAR[layers.albedo], to_layers)
     segment = np.asarray(_warp(layers.segment, to_layers, cv2.INTER_NEAREST), np.uint8)
     light = _deepen_shade(_smooth_within(light, segment, settings.sample_blur_px), segment, settings.occlusion_power)
+    light = light * _fold_shade(segment, settings.folds)[..., None]
     if settings.crease_depth > 0:
         depth_mm = _warp(np.asarray(layers.depth_mm, np.float32), to_layers, cv2.INTER_NEAREST)
         light = light * (1 - settings.crease_depth * _crease(depth_mm, segment, settings.crease_width_px))[..., None]
@@ -130,6 +131,19 @@ def _crease(depth_mm: FloatImage, segment: npt.NDArray[np.uint8], width_px: floa
     closeness = np.where(outline, np.exp(-((step_mm / CREASE_STEP_MM) ** 2)), 0.0).astype(np.float32)
     spread = cv2.GaussianBlur(closeness, (0, 0), width_px) * np.float32(width_px * sqrt(2 * pi))
     return np.asarray(np.clip(spread, 0.0, 1.0), np.float32)
+
+
+def _fold_shade(segment: npt.NDArray[np.uint8], folds: npt.NDArray[np.float32]) -> FloatImage:
+    """Factor on the light (1 = none lost) from dark folds in the host's skin."""
+    shade = np.ones(segment.shape, np.float32)
+    t = np.linspace(0, 1, 16)[:, None]
+    for x0, y0, x1, y1, x2, y2, width_px, depth in folds:
+        curve = (1 - t) ** 2 * (x0, y0) + 2 * t * (1 - t) * (x1, y1) + t**2 * (x2, y2)
+        line = np.zeros(segment.shape, np.float32)
+        cv2.polylines(line, [np.round(curve).astype(np.int32)], False, 1.0, 1, cv2.LINE_AA)
+        spread = cv2.GaussianBlur(line, (0, 0), float(width_px)) * float(width_px * sqrt(2 * pi))
+        shade *= 1 - float(depth) * np.minimum(spread, 1.0)
+    return np.where(segment == HOST, shade, np.float32(1.0))
 
 
 def _illuminate(light: FloatImage, segment: npt.NDArray[np.uint8], settings: CameraSettings) -> FloatImage:

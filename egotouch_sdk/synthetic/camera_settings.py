@@ -45,6 +45,7 @@ class CameraSettings:
     `occlusion_power` deepens shade: each layer is raised to it where it is below the open level, as from smaller lights overhead
     and darker surroundings. `sample_blur_px` smooths the renderer's sampling noise before that, never across an outline.
     `crease_depth` 0..1 and `crease_width_px` darken the groove where skin wells up against the finger's flank.
+    `folds` (K, 8): dark skin folds across the host, each the three points of a quadratic curve in patch pixels, width and depth.
     `light_gains` (3, 3): RGB gain of the key, window and ambient layers. `crevice_tint` (3,): exponents added per channel
     where light is scarce (negative = lighter there). `tone_power` bends albedo (above 1 = darker skin), `tone_gains` (3, 3): RGB gain of
     background, host and touching hand. `native_px` is the number of camera pixels across the patch.
@@ -56,6 +57,7 @@ class CameraSettings:
     sample_blur_px: float
     crease_depth: float
     crease_width_px: float
+    folds: npt.NDArray[np.float32]
     light_gains: npt.NDArray[np.float32]
     crevice_tint: npt.NDArray[np.float32]
     tone_power: float
@@ -89,6 +91,7 @@ def draw_settings(rng: np.random.Generator) -> CameraSettings:
         sample_blur_px=float(rng.uniform(0.7, 1.8)),
         crease_depth=0.0 if rng.random() < 0.1 else float(rng.uniform(0.25, 0.8)),
         crease_width_px=float(rng.uniform(1.0, 2.6)),
+        folds=_folds(rng),
         light_gains=_light_gains(rng, mix),
         crevice_tint=_crevice_tint(rng),
         tone_power=_tone_power(rng),
@@ -117,6 +120,13 @@ def draw_settings(rng: np.random.Generator) -> CameraSettings:
 
 def _bounded_normal(rng: np.random.Generator, sigma: float, bound: float) -> float:
     return float(np.clip(rng.normal(0, sigma), -bound, bound))
+
+
+def _folds(rng: np.random.Generator) -> npt.NDArray[np.float32]:
+    """A cupped hand has darker and more folds than the rendered one; a third of the pictures stay as rendered."""
+    count = 0 if rng.random() < 0.35 else int(rng.integers(1, 5))
+    points = rng.uniform(-10, 110, (count, 6))
+    return np.column_stack([points, rng.uniform(0.6, 2.0, count), rng.uniform(0.15, 0.7, count)]).astype(np.float32)
 
 
 def _light_gains(rng: np.random.Generator, mix: LightMix) -> npt.NDArray[np.float32]:

@@ -90,7 +90,7 @@ def read_folder(folder: Path) -> list[RenderedPatch]:
     """All patches of all shards in a folder, in name order; raises `SourceError` when there are none."""
     patches = [patch for path in sorted(folder.glob("*.npz")) for patch in read_shard(path)]
     if not patches:
-        raise SourceError(f"no rendered patches in {folder}", hint="Render some first: egotouch synthesize --help")
+        raise SourceError(f"no rendered patches in {folder}", hint="Render some first: egotouch synth patches --help")
     return patches
 
 

@@ -26,6 +26,7 @@ def plain(seed: int = 0) -> CameraSettings:
     """A camera that adds nothing, to change one thing at a time."""
     return replace(
         draw_settings(np.random.default_rng(seed)), occlusion_power=1.0, sample_blur_px=0.5, crease_depth=0.0,
+        folds=np.zeros((0, 8), np.float32),
         shift_px=(0.0, 0.0), turn_rad=0.0, scale=1.0, native_px=100,
         finger_motion_px=(0.0, 0.0), camera_motion_px=(0.0, 0.0), optical_blur_px=0.5, noise=1e-6, sharpening=0.0, jpeg_quality=95,
         distractor=None, haze=0.0, contrast=1.0, saturation=1.0, skin_level=0.2, shoulder=0.0, gamma=2.2, tone_power=1.0,
@@ -161,3 +162,11 @@ def test_a_groove_darkens_the_outline_where_skin_reaches_up_to_the_finger() -> N
     assert firm < 0.85
     assert firm < light < hover
     assert hover > 0.97
+
+
+def test_a_fold_darkens_the_host_under_its_line_and_never_the_finger() -> None:
+    fold = np.array([[0, 80, 50, 80, 99, 80, 1.0, 0.5]], np.float32)
+    before, after = shoot(plain()), shoot(replace(plain(), folds=fold))
+    assert after[80, 5:15].mean() < 0.85 * before[80, 5:15].mean()
+    assert after[60, 5:15].mean() == pytest.approx(before[60, 5:15].mean(), rel=0.02)
+    assert after[80, 45:55].mean() == pytest.approx(before[80, 45:55].mean(), rel=0.03)
