@@ -68,7 +68,7 @@ def photograph(layers: LightLayers, settings: CameraSettings, rng: np.random.Gen
     light = light * _fold_shade(segment, settings.folds)[..., None]
     if settings.crease_depth > 0:
         depth_mm = _warp(np.asarray(layers.depth_mm, np.float32), to_layers, cv2.INTER_NEAREST)
-        light = light * (1 - settings.crease_depth * _crease(depth_mm, segment, settings.crease_width_px))[..., None]
+        light = light * (1 - settings.crease_depth * groove(depth_mm, segment, settings.crease_width_px))[..., None]
     image = _skin(albedo, segment, settings) * _illuminate(light, segment, settings)
     if settings.distractor is not None:
         image = _add_distractor(image, segment, settings.distractor)
@@ -117,7 +117,7 @@ def _deepen_shade(light: FloatImage, segment: npt.NDArray[np.uint8], power: floa
     return np.asarray(light * cv2.pow(shade.astype(np.float32), power - 1), np.float32)
 
 
-def _crease(depth_mm: FloatImage, segment: npt.NDArray[np.uint8], width_px: float) -> FloatImage:
+def groove(depth_mm: FloatImage, segment: npt.NDArray[np.uint8], width_px: float) -> FloatImage:
     """How much of a groove (0..1) each pixel lies in: 1 where skin reaches up to the finger's visible outline.
 
     A pressed finger sinks in and the skin hugs its flanks in a groove of under a millimetre, finer than the contact mesh and the

@@ -16,14 +16,18 @@ import numpy as np
 import numpy.typing as npt
 
 from egotouch_sdk.errors import MissingExtraError
+from egotouch_sdk.synthetic.camera import groove
 from egotouch_sdk.synthetic.patches_job import participant
 from egotouch_sdk.synthetic.script import Shot
+from egotouch_sdk.synthetic.series import PX_PER_MM
 from egotouch_sdk.synthetic.shots import DEMO
 from egotouch_sdk.synthetic.take import FPS, HEIGHT_PX, WIDTH_PX, Take
 
 #: Mean linear level of skin after exposure, about 48 % grey once encoded (our choice; cameras meter near 18 % reflectance).
 _SKIN_LEVEL = 0.2
-_CRF = "21"
+_CRF = "20"
+#: Depth and width (at 2.5 px/mm) of the groove along a pressed finger: the middle of the training camera's ranges.
+_GROOVE_DEPTH, _GROOVE_WIDTH_PX = 0.5, 1.8
 
 
 @functools.lru_cache(maxsize=1)
@@ -47,6 +51,7 @@ def _render(folder: Path, shot: int, frames: Sequence[int]) -> int:
                 light=np.clip(layers.light, 0, 60).astype(np.float16),
                 albedo=layers.albedo.astype(np.float16),
                 segment=layers.segment,
+                depth_mm=(layers.depth_m * 1e3).astype(np.float32),
                 truth=np.array(json.dumps(rendered.truth)),
             )
         partial.replace(path)
@@ -57,11 +62,22 @@ def _develop(layers: Any, shot: Shot, exposure: float, rng: np.random.Generator)
     """Light, exposure, optics, sensor noise and tone curve: layers to a BGR frame."""
     weights = np.array(shot.light_colours) * np.array(shot.light_weights)[:, None]
     image = (layers["light"].astype(np.float32) @ weights.astype(np.float32)) * layers["albedo"].astype(np.float32) * exposure
+    image *= (1 - _GROOVE_DEPTH * _groove(layers))[..., None]
     image = cv2.GaussianBlur(image.astype(np.float32), (0, 0), 0.8)
     noise = cv2.GaussianBlur(rng.standard_normal(image.shape).astype(np.float32), (0, 0), 0.5) * 1.6
     image = np.clip(image + noise * np.sqrt(np.maximum(image, 0) * 4e-5 + 1.5e-6), 0, None)
     image = image / (1 + 0.22 * image) * 1.18
     return np.asarray((np.clip(image, 0, 1) ** (1 / 2.2) * 255).astype(np.uint8)[:, :, ::-1])
+
+
+def _groove(layers: Any) -> npt.NDArray[np.float32]:
+    """Where skin hugs the finger's flank, (H, W) in 0..1, worked out at the patches' resolution; see `camera.groove`."""
+    scale = PX_PER_MM / json.loads(str(layers["truth"]))["px_per_mm"]
+    size = (round(WIDTH_PX * scale), round(HEIGHT_PX * scale))
+    depth = cv2.resize(layers["depth_mm"].astype(np.float32), size, interpolation=cv2.INTER_NEAREST)
+    segment = cv2.resize(layers["segment"], size, interpolation=cv2.INTER_NEAREST)
+    fine = groove(np.asarray(depth, np.float32), np.asarray(segment, np.uint8), _GROOVE_WIDTH_PX)
+    return np.asarray(cv2.resize(fine, (WIDTH_PX, HEIGHT_PX), interpolation=cv2.INTER_AREA), np.float32)
 
 
 def _exposure(layers: Any, shot: Shot) -> float:
