@@ -26,6 +26,7 @@ class TouchNetwork(nn.Module):
 
     `patch` (N, 3, 100, 100) float32, normalised by `egotouch_sdk.patches.normalise`; `polar` (N, 2) = (r_palms, theta_rad).
     Returns `touch_logit` (N,) and `force_n` (N,) in newtons: unbounded while training, clamped to 0..3.5 in evaluation mode.
+    A touch has no handedness: in evaluation mode the outputs are the mean over the patch and its mirror image (theta negated).
     `drop_path` is the largest share of skipped residuals, `dropout` the share of dropped features, both in training only.
     """
 
@@ -60,7 +61,11 @@ class TouchNetwork(nn.Module):
         return logit, force_n if self.training else force_n.clamp(0.0, FORCE_MAX_N)
 
     def forward(self, patch: Tensor, polar: Tensor) -> tuple[Tensor, Tensor]:
-        return self.decide(self.embed(patch, polar))
+        if self.training:
+            return self.decide(self.embed(patch, polar))
+        mirrored = polar * polar.new_tensor([1.0, -1.0])
+        logit, force_n = self.decide(self.embed(torch.cat([patch, patch.flip(3)]), torch.cat([polar, mirrored])))
+        return logit.reshape(2, -1).mean(0), force_n.reshape(2, -1).mean(0)
 
     def use_fast_layout(self) -> TouchNetwork:
         """Keep activations channel-last, about a third faster on CPUs; the first block stays as it is (torch 2.13 crashes on it)."""
