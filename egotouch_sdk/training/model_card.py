@@ -31,7 +31,8 @@ _LIMITS = """
 Trained and calibrated on rendered pictures only; no picture of a real person went into weights, calibration or threshold values.
 Real pictures listed under "Measured" were looked at during development, as "What was tried" says, so they are no blind test.
 Figures on rendered pictures say nothing about real skin by themselves. Forces come from a contact model, not from a sensor:
-on the real thumb their order does not follow the sensor, so do not rely on them yet. Hair, sleeves, gloves, rings over the contact, wet skin and very dim rooms are not covered well.
+on the real thumb their order does not follow the sensor, so do not rely on them yet.
+Hair, sleeves, gloves, rings over the contact, wet skin and very dim rooms are not covered well.
 """
 
 
