@@ -71,7 +71,6 @@ def test_the_report_counts_per_recording_and_pooled() -> None:
 
 @pytest.mark.real_data
 @pytest.mark.skipif("EGOTOUCH_REAL_DIR" not in os.environ, reason="EGOTOUCH_REAL_DIR is not set")
-@pytest.mark.xfail(reason="goal not reached yet: AUROC .952, accuracy .888 (models/MODEL_CARD.md)", strict=True)
 def test_the_shipped_model_reaches_the_goal_on_real_thumb_patches() -> None:
     patches = read_real_patches(Path(os.environ["EGOTOUCH_REAL_DIR"]) / "thumb_patches", (316.0, 175.0), 7.3, 0.7)
     model = TouchModel()
