@@ -8,19 +8,14 @@ import numpy.typing as npt
 
 from egotouch_sdk.synthetic.linalg import Array, unit
 from egotouch_sdk.synthetic.render import Backdrop
+from egotouch_sdk.synthetic.srgb import srgb_to_linear
 
 _SIZE = 256
 
 
-def linear(srgb: Array) -> Array:
-    """sRGB 0..255 to linear 0..1 (IEC 61966-2-1)."""
-    c = np.asarray(srgb, float) / 255.0
-    return np.where(c < 0.04045, c / 12.92, ((c + 0.055) / 1.055) ** 2.4)
-
-
 def draw_texture(rng: np.random.Generator) -> npt.NDArray[np.float32]:
     """A random linear albedo texture (256, 256, 3): plain, striped, checked or mottled, with some objects on it."""
-    base = linear(np.clip(rng.uniform(25, 235) * np.exp(rng.normal(0, rng.choice([0.07, 0.25], p=[0.7, 0.3]), 3)), 5, 245))
+    base = srgb_to_linear(np.clip(rng.uniform(25, 235) * np.exp(rng.normal(0, rng.choice([0.07, 0.25], p=[0.7, 0.3]), 3)), 5, 245))
     y, x = np.mgrid[0:_SIZE, 0:_SIZE] / _SIZE
     noise = sum(cv2.resize(rng.standard_normal((2**k, 2**k)), (_SIZE, _SIZE), interpolation=cv2.INTER_CUBIC) / 1.6**k for k in range(2, 8))
     checks = rng.integers(3, 14)
@@ -34,7 +29,7 @@ def draw_texture(rng: np.random.Generator) -> npt.NDArray[np.float32]:
     for _ in range(rng.integers(0, 14)):
         p = rng.integers(0, _SIZE, 2)
         q = p + rng.integers(5, 80, 2)
-        cv2.rectangle(image, p.tolist(), q.tolist(), linear(rng.uniform(10, 245, 3)).tolist(), -1)
+        cv2.rectangle(image, p.tolist(), q.tolist(), srgb_to_linear(rng.uniform(10, 245, 3)).tolist(), -1)
     return np.clip(cv2.GaussianBlur(image.astype(np.float32), (0, 0), rng.uniform(0.5, 3)), 0.004, 0.95).astype(np.float32)
 
 
@@ -49,4 +44,4 @@ def calm_texture(rng: np.random.Generator, srgb: tuple[int, int, int]) -> npt.ND
     slow = sum(cv2.resize(rng.standard_normal((2**k, 2**k)), (_SIZE, _SIZE), interpolation=cv2.INTER_CUBIC) / 1.6**k for k in range(2, 6))
     grain = cv2.GaussianBlur(rng.standard_normal((_SIZE, _SIZE)), (0, 0), sigmaX=14, sigmaY=0.8) * 5
     pattern = 1 + 0.06 * slow + 0.08 * grain + 0.05 * np.sin(2 * np.pi * (18 * y + 0.4 * slow + 0 * x))
-    return np.clip(linear(np.array(srgb)) * np.clip(pattern, 0.3, 2)[..., None], 0.004, 0.95).astype(np.float32)
+    return np.clip(srgb_to_linear(np.array(srgb)) * np.clip(pattern, 0.3, 2)[..., None], 0.004, 0.95).astype(np.float32)

@@ -16,6 +16,7 @@ import numpy.typing as npt
 from egotouch_sdk.errors import FrameError
 from egotouch_sdk.observation import PATCH_PX
 from egotouch_sdk.synthetic.camera_settings import CameraSettings, draw_settings
+from egotouch_sdk.synthetic.srgb import srgb_to_linear
 
 FloatImage = npt.NDArray[np.float32]
 
@@ -24,9 +25,8 @@ BACKGROUND, HOST, TOUCHING_HAND = 0, 1, 2
 CREASE_STEP_MM = 4.0
 #: Luma weights (ITU-R BT.709), linear RGB.
 LUMA = np.array([0.2126, 0.7152, 0.0722], np.float32)
-_LEVELS = np.arange(256, dtype=np.float64) / 255
 #: Linear value of each sRGB code (IEC 61966-2-1).
-SRGB_TO_LINEAR = np.where(_LEVELS <= 0.04045, _LEVELS / 12.92, ((_LEVELS + 0.055) / 1.055) ** 2.4).astype(np.float32)
+SRGB_TO_LINEAR = srgb_to_linear(np.arange(256)).astype(np.float32)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -18,10 +18,10 @@ import numpy.typing as npt
 from egotouch_sdk.errors import MissingExtraError
 from egotouch_sdk.synthetic.camera import groove
 from egotouch_sdk.synthetic.patches_job import participant
-from egotouch_sdk.synthetic.script import Shot
+from egotouch_sdk.synthetic.script import FPS, Shot
 from egotouch_sdk.synthetic.series import PX_PER_MM
 from egotouch_sdk.synthetic.shots import DEMO
-from egotouch_sdk.synthetic.take import FPS, HEIGHT_PX, WIDTH_PX, Take
+from egotouch_sdk.synthetic.take import HEIGHT_PX, WIDTH_PX, Take
 
 #: Mean linear level of skin after exposure, about 48 % grey once encoded (our choice; cameras meter near 18 % reflectance).
 _SKIN_LEVEL = 0.2
@@ -60,8 +60,7 @@ def _render(folder: Path, shot: int, frames: Sequence[int]) -> int:
 
 def _develop(layers: Any, shot: Shot, exposure: float, rng: np.random.Generator) -> npt.NDArray[np.uint8]:
     """Light, exposure, optics, sensor noise and tone curve: layers to a BGR frame."""
-    weights = np.array(shot.light_colours) * np.array(shot.light_weights)[:, None]
-    image = (layers["light"].astype(np.float32) @ weights.astype(np.float32)) * layers["albedo"].astype(np.float32) * exposure
+    image = (layers["light"].astype(np.float32) @ shot.light_gains.astype(np.float32)) * layers["albedo"].astype(np.float32) * exposure
     image *= (1 - _GROOVE_DEPTH * _groove(layers))[..., None]
     image = cv2.GaussianBlur(image.astype(np.float32), (0, 0), 0.8)
     noise = cv2.GaussianBlur(rng.standard_normal(image.shape).astype(np.float32), (0, 0), 0.5) * 1.6
@@ -81,9 +80,8 @@ def _groove(layers: Any) -> npt.NDArray[np.float32]:
 
 
 def _exposure(layers: Any, shot: Shot) -> float:
-    weights = np.array(shot.light_colours) * np.array(shot.light_weights)[:, None]
     skin = layers["segment"] > 0
-    return float(_SKIN_LEVEL / np.median(((layers["light"][skin].astype(float) @ weights) * layers["albedo"][skin]).mean(-1)))
+    return float(_SKIN_LEVEL / np.median(((layers["light"][skin].astype(float) @ shot.light_gains) * layers["albedo"][skin]).mean(-1)))
 
 
 def render_demo(folder: Path, workers: int, report: Callable[[str], None]) -> int:
@@ -91,7 +89,7 @@ def render_demo(folder: Path, workers: int, report: Callable[[str], None]) -> in
     folder.mkdir(parents=True, exist_ok=True)
     jobs = []
     for shot in range(len(DEMO)):
-        missing = [f for f in range(_take(shot).frames) if not _scratch(folder, shot, f).exists()]
+        missing = [f for f in range(DEMO[shot].frames) if not _scratch(folder, shot, f).exists()]
         jobs += [(shot, missing[i : i + 8]) for i in range(0, len(missing), 8)]
     total, done = sum(len(frames) for _, frames in jobs), 0
     pool = ProcessPoolExecutor(workers, mp_context=mp.get_context("spawn"))
@@ -142,7 +140,7 @@ def assemble_demo(folder: Path, video: Path, truth: Path) -> int:
         stream.width, stream.height, stream.pix_fmt = WIDTH_PX, HEIGHT_PX, "yuv420p"
         for number, shot in enumerate(DEMO):
             exposure = 0.0
-            for frame in range(_take(number).frames):
+            for frame in range(shot.frames):
                 with np.load(_scratch(folder, number, frame)) as layers:
                     exposure = exposure or _exposure(layers, shot)
                     image = _develop(layers, shot, exposure, rng)

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
+import numpy.typing as npt
 
 from egotouch_sdk.joints import Finger
 
@@ -13,6 +14,8 @@ Kind = Literal["tap", "press", "drag", "hover"]
 #: Height between acts in millimetres, and the time to come down, to rise, and between (seconds; measured taps take 0.2-0.4 s).
 _CRUISE_MM, _DOWN_S, _UP_S, _TRAVEL_S = 24.0, 0.30, 0.24, 0.26
 _RAMP_S = 0.12
+#: Frame rate of clips.
+FPS = 30
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,6 +60,16 @@ class Shot:
     def duration_s(self) -> float:
         """Length of the take."""
         return self._start_s(len(self.acts)) + 0.1
+
+    @property
+    def frames(self) -> int:
+        """Number of frames at 30 per second."""
+        return int(np.ceil(self.duration_s * FPS))
+
+    @property
+    def light_gains(self) -> npt.NDArray[np.float64]:
+        """RGB gain of the key, windows and room layers, (3, 3)."""
+        return np.array(self.light_colours) * np.array(self.light_weights)[:, None]
 
     def _start_s(self, index: int) -> float:
         return 0.15 + sum(_TRAVEL_S + _DOWN_S + a.duration_s + _UP_S for a in self.acts[:index])

@@ -15,12 +15,7 @@ from pathlib import Path
 import numpy as np
 
 from egotouch_sdk.synthetic.series import LabelledLayers
-
-
-def encode_srgb(linear: np.ndarray) -> np.ndarray:
-    """Linear 0..1 to sRGB-encoded uint8 (IEC 61966-2-1)."""
-    c = np.clip(linear, 0.0, 1.0)
-    return np.round(255 * np.where(c < 0.0031308, 12.92 * c, 1.055 * c ** (1 / 2.4) - 0.055)).astype(np.uint8)
+from egotouch_sdk.synthetic.srgb import linear_to_srgb
 
 
 def write_shard(path: Path, patches: Sequence[LabelledLayers]) -> None:
@@ -32,7 +27,7 @@ def write_shard(path: Path, patches: Sequence[LabelledLayers]) -> None:
         np.savez_compressed(
             file,
             light=np.stack([np.clip(p.layers.light, 0, 60).astype(np.float16) for p in patches]),
-            albedo=np.stack([encode_srgb(p.layers.albedo) for p in patches]),
+            albedo=np.stack([linear_to_srgb(p.layers.albedo) for p in patches]),
             segment=np.stack([p.layers.segment for p in patches]),
             depth_mm=np.clip((depth - depth[:, centre : centre + 1, centre : centre + 1]) * 1e3, -300, 300).astype(np.float16),
             meta=np.array(json.dumps([p.labels for p in patches])),

@@ -10,13 +10,9 @@ import numpy as np
 import numpy.typing as npt
 
 from egotouch_sdk.errors import SourceError
+from egotouch_sdk.synthetic.srgb import srgb_to_linear
 
 _CUT = slice(22, 122)
-
-
-def _decode_srgb(image: npt.NDArray[np.uint8]) -> npt.NDArray[np.float64]:
-    c = image / 255.0
-    return np.where(c < 0.04045, c / 12.92, ((c + 0.055) / 1.055) ** 2.4)
 
 
 def contact_sheet(folder: Path, rows: int = 10, seed: int = 0) -> npt.NDArray[np.uint8]:
@@ -37,7 +33,7 @@ def contact_sheet(folder: Path, rows: int = 10, seed: int = 0) -> npt.NDArray[np
             cells = []
             for k in (0, 2, 4, 6, 1, 3, 5, 7):
                 light = shard["light"][first + k][_CUT, _CUT].astype(float) @ weights
-                image = _decode_srgb(shard["albedo"][first + k][_CUT, _CUT]) * light[..., None]
+                image = srgb_to_linear(shard["albedo"][first + k][_CUT, _CUT]) * light[..., None]
                 if k == 0:
                     exposure = 0.22 / np.median(image.mean(2))
                 cell = np.ascontiguousarray((np.clip(image * exposure, 0, 1) ** (1 / 2.2) * 255).astype(np.uint8)[:, :, ::-1])

@@ -8,7 +8,8 @@ from egotouch_sdk.joints import FINGERS
 from egotouch_sdk.synthetic.linalg import Array, smoothstep
 from egotouch_sdk.synthetic.nails import NailMasks
 from egotouch_sdk.synthetic.skin_side import Relief, SkinSide
-from egotouch_sdk.synthetic.skin_traits import SkinTraits, srgb_to_linear
+from egotouch_sdk.synthetic.skin_traits import SkinTraits
+from egotouch_sdk.synthetic.srgb import srgb_to_linear
 
 #: How strongly each pigment absorbs linear R, G, B (relative; melanin and blood fall towards red).
 _MELANIN = np.array([0.35, 0.55, 0.70])

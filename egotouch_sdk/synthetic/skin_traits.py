@@ -6,16 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from egotouch_sdk.synthetic.srgb import srgb_to_linear
+
 #: sRGB albedo of the back of the hand for Fitzpatrick types I..VI (our choice, near published skin palettes).
 FITZPATRICK_SRGB = np.array(
     [[238, 205, 188], [226, 183, 160], [205, 155, 127], [172, 122, 94], [126, 84, 63], [82, 54, 42]], dtype=np.float64
 )
-
-
-def srgb_to_linear(srgb_255: object) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:
-    """Linear values 0..1 of sRGB values 0..255, any shape (IEC 61966-2-1)."""
-    value = np.asarray(srgb_255, dtype=np.float64) / 255
-    return np.where(value < 0.04045, value / 12.92, ((value + 0.055) / 1.055) ** 2.4)
 
 
 @dataclass(frozen=True, slots=True)

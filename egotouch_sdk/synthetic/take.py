@@ -16,11 +16,10 @@ from egotouch_sdk.synthetic.lights import Lights, draw_lights
 from egotouch_sdk.synthetic.linalg import Array, reject_from, unit
 from egotouch_sdk.synthetic.plan import ScenePlan
 from egotouch_sdk.synthetic.render import Backdrop, Camera, Layers, render_layers
-from egotouch_sdk.synthetic.script import Moment, Shot, moment
+from egotouch_sdk.synthetic.script import FPS, Moment, Shot, moment
 from egotouch_sdk.synthetic.skin import SkinIdentity
 from egotouch_sdk.synthetic.stage import Aim, Stage, Touch
 
-FPS = 30
 WIDTH_PX, HEIGHT_PX = 640, 480
 #: Horizontal field of view; head-mounted cameras of the paper's kind have 60 to 80 degrees.
 _FOV_RAD = float(np.radians(62))
@@ -71,11 +70,6 @@ class Take:
         self._lights: Lights = draw_lights(rng, still.normal, self._aim.up, self._aim.view)
         tilt = unit(0.35 * self._aim.up + 0.8 * self._aim.view)
         self._backdrop = Backdrop(still.contact - self._aim.view * 0.28, tilt, self._aim.up, calm_texture(rng, shot.backdrop_srgb))
-
-    @property
-    def frames(self) -> int:
-        """Number of frames at 30 per second."""
-        return int(np.ceil(self._shot.duration_s * FPS))
 
     def _tilted(self, still: Stage) -> Aim:
         right_deg, up_deg = self._shot.tilt_deg

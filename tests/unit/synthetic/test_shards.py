@@ -10,8 +10,9 @@ from egotouch_sdk.errors import ConfigError, SourceError
 from egotouch_sdk.synthetic.patches_job import PatchJob, run
 from egotouch_sdk.synthetic.render import Layers
 from egotouch_sdk.synthetic.series import LabelledLayers
-from egotouch_sdk.synthetic.shards import encode_srgb, write_shard
+from egotouch_sdk.synthetic.shards import write_shard
 from egotouch_sdk.synthetic.sheet import contact_sheet
+from egotouch_sdk.synthetic.srgb import linear_to_srgb
 
 SIDE = 144
 
@@ -36,7 +37,7 @@ def test_a_shard_reads_back_as_it_was_written(tmp_path: Path) -> None:
 
 
 def test_srgb_codes_are_the_standard_ones() -> None:
-    assert encode_srgb(np.array([0.0, 0.0021, 0.2140, 1.0, 2.0])).tolist() == [0, 7, 127, 255, 255]
+    assert linear_to_srgb(np.array([0.0, 0.0021, 0.2140, 1.0, 2.0])).tolist() == [0, 7, 127, 255, 255]
 
 
 def test_another_jobs_folder_is_refused(tmp_path: Path) -> None:
