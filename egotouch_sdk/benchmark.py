@@ -149,7 +149,7 @@ def measure(frames: Sequence[Frame], config: TouchConfig, *, warm_up: int = 10) 
                 frame_ms.append(elapsed_ms)
                 stages.append(result.stage_ms)
                 two_hands += len(result.hands) >= 2
-                patches += len(result.patches)
+                patches += len(result.fingertips)
     count = len(frame_ms)
     networks_ms = spent.total_ns / 1e6 / count
     return BenchReport(

@@ -181,6 +181,69 @@ class StateConfig(_Section):
         return self
 
 
+class GestureConfig(_Section):
+    """From touches to clicks, long clicks, drags, force events and flings. All times are capture time, all lengths on the skin."""
+
+    touch_slop_mm: float = Field(
+        default=3.0, gt=0, description="A touch that moves farther is a drag. Android's 8 dp are 1.27 mm, less than landmark noise."
+    )
+    double_click_slop_mm: float = Field(
+        default=16.0, gt=0, description="The second click of a double click lies this close to the first (Android: 100 dp = 15.9 mm)."
+    )
+    long_press_timeout_ms: float = Field(
+        default=400.0, gt=0, description="A touch held this long is a long click (Android, DEFAULT_LONG_PRESS_TIMEOUT)."
+    )
+    double_tap_timeout_ms: float = Field(
+        default=300.0, gt=0, description="The second touch of a double click begins within this time (Android, DOUBLE_TAP_TIMEOUT)."
+    )
+    double_tap_min_ms: float = Field(
+        default=40.0, ge=0, description="A second touch sooner than this is a bounce, not a double click (Android, DOUBLE_TAP_MIN_TIME)."
+    )
+    tap_timeout_ms: float = Field(
+        default=100.0,
+        ge=0,
+        description="A deep press must last this long to bring the long click forward; a hard tap is shorter (Android, TAP_TIMEOUT).",
+    )
+    deep_press_n: float = Field(
+        default=2.5, gt=0, description="A press at least this hard brings the long click forward, like Android's CLASSIFICATION_DEEP_PRESS."
+    )
+    force_enter_n: float = Field(default=1.5, gt=0, description="A press at least this hard is a force press (our choice).")
+    force_exit_n: float = Field(default=1.2, gt=0, description="A force press ends below this force (our choice, 20 % below enter).")
+    force_step_n: float = Field(default=0.1, ge=0, description="A force press reports a change of at least this much (our choice).")
+    fling_min_mm_s: float = Field(
+        default=50.0, gt=0, description="A drag that lifts at least this fast is a fling. Android's 7.9 mm/s are within landmark noise."
+    )
+    fling_max_mm_s: float = Field(
+        default=1270.0, gt=0, description="Fling velocities are limited to this (Android: 8000 dp/s = 1270 mm/s)."
+    )
+    velocity_horizon_ms: float = Field(
+        default=100.0, gt=0, description="Velocity is measured over this much time (Android's VelocityTracker: 100 ms)."
+    )
+    stopped_ms: float = Field(
+        default=40.0,
+        gt=0,
+        description="A finger that has not moved for this long has stopped (Android's VelocityTracker: 40 ms); never less than two frames.",
+    )
+
+    @model_validator(mode="after")
+    def _ordered(self) -> Self:
+        _require_order(self, "force_exit_n", "force_enter_n")
+        _require_order(self, "double_tap_min_ms", "double_tap_timeout_ms")
+        _require_order(self, "fling_min_mm_s", "fling_max_mm_s")
+        return self
+
+
+class HostConfig(_Section):
+    """The touch point on the host limb."""
+
+    palm_mm: float | None = Field(
+        default=None,
+        gt=40,
+        lt=140,
+        description="The wearer's own length wrist to middle MCP in millimetres; None takes the usual one. It scales x_mm and y_mm.",
+    )
+
+
 class TouchConfig(_Section):
     """All settings of the pipeline, one section per stage; the defaults work for an egocentric camera."""
 
@@ -188,4 +251,7 @@ class TouchConfig(_Section):
     gate: GateConfig = GateConfig()
     patches: PatchesConfig = PatchesConfig()
     touch: TouchModelConfig = TouchModelConfig()
+    host: HostConfig = HostConfig()
     state: StateConfig = StateConfig()
+    gestures: GestureConfig = GestureConfig()
+    debug: bool = Field(default=False, description="Check the grammar of every event; a breach raises GrammarError.")

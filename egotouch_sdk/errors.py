@@ -5,6 +5,9 @@
     ├── SourceError        a camera, file or folder gives no usable frames
     ├── FrameError         an array or data object has the wrong shape, type or range
     ├── ModelError         a model file is missing, altered or of the wrong kind
+    ├── GrammarError       events break the event grammar (only ever raised in debug mode)
+    ├── RecordingError     a recording cannot be read, or was made by an incompatible version
+    ├── ProtocolError      a message of the wire protocol is malformed or out of order
     └── MissingExtraError  an optional dependency is not installed
 
 Each carries `code` (stable, for programs), `message` (what is wrong) and `hint` (the next step).
@@ -49,6 +52,24 @@ class ModelError(EgoTouchError):
     """A model file is missing, altered, or not what its manifest says."""
 
     code = "model"
+
+
+class GrammarError(EgoTouchError):
+    """Events break the event grammar: a defect of the SDK, or of a program that makes events itself."""
+
+    code = "grammar"
+
+
+class RecordingError(EgoTouchError):
+    """A recording is not one, is damaged at its start, or was made by an incompatible version."""
+
+    code = "recording"
+
+
+class ProtocolError(EgoTouchError):
+    """A message of the wire protocol is malformed, too large or out of order."""
+
+    code = "protocol"
 
 
 class MissingExtraError(EgoTouchError, ImportError):

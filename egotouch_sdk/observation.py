@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from enum import StrEnum
+from math import isfinite, pi
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,7 @@ import numpy.typing as npt
 
 from egotouch_sdk.errors import FrameError
 from egotouch_sdk.joints import NUM_JOINTS, Finger, HandJoint, Handedness
+from egotouch_sdk.surface import Surface
 
 FloatArray = npt.NDArray[np.float32]
 
@@ -92,30 +94,61 @@ class GateResult:
         return self.reason is GateReason.OPEN
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class FingertipPatch:
-    """The finger-up view of one fingertip.
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Fingertip:
+    """Where one fingertip is that could touch.
 
-    `image` (100, 100, 3) uint8 RGB, tip at the centre, DIP to TIP pointing up, mirrored for a left touching hand.
+    `tip_px` (2,) and `px_per_mm` locate it in the frame.
     `r_palms` is the distance host wrist to fingertip in lengths of the axis wrist to middle MCP;
     `theta_rad` its angle from that axis, counter-clockwise as seen, in (-pi, pi], sign flipped for a left touching hand.
-    `tip_px` (2,) and `px_per_mm` locate it in the frame.
+    Both are 0 where the host is unknown.
     """
 
     hand_id: int
     handedness: Handedness
     finger: Finger
-    image: npt.NDArray[np.uint8] = field(repr=False)
-    r_palms: float
-    theta_rad: float
     tip_px: tuple[float, float]
     px_per_mm: float
+    r_palms: float = 0.0
+    theta_rad: float = 0.0
 
     def __post_init__(self) -> None:
+        if not self.px_per_mm > 0:
+            raise FrameError(f"fingertip px_per_mm is {self.px_per_mm}, need > 0")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class FingertipPatch(Fingertip):
+    """A fingertip with its finger-up view.
+
+    `image` (100, 100, 3) uint8 RGB, tip at the centre, DIP to TIP pointing up, mirrored for a left touching hand.
+    """
+
+    image: npt.NDArray[np.uint8] = field(repr=False)
+
+    def __post_init__(self) -> None:
+        Fingertip.__post_init__(self)
         if self.image.shape != (PATCH_PX, PATCH_PX, 3) or self.image.dtype != np.uint8:
             raise FrameError(f"patch is {self.image.dtype} {self.image.shape}, need uint8 ({PATCH_PX}, {PATCH_PX}, 3)")
-        if self.px_per_mm <= 0:
-            raise FrameError(f"patch px_per_mm is {self.px_per_mm}, need > 0")
+
+
+@dataclass(frozen=True, slots=True)
+class HostPoint:
+    """A fingertip in the host's own frame.
+
+    `x_mm`, `y_mm`: origin at the host's wrist landmark, +y to the middle MCP, +x to the host's thumb side, on the `surface` under
+    the finger. `pitch_rad` 0 (flat on the skin) to pi/2 (perpendicular); `yaw_rad` in (-pi, pi], 0 along +y, positive towards +x.
+    """
+
+    surface: Surface
+    x_mm: float
+    y_mm: float
+    pitch_rad: float
+    yaw_rad: float
+
+    def __post_init__(self) -> None:
+        if not (isfinite(self.x_mm) and isfinite(self.y_mm) and 0.0 <= self.pitch_rad <= pi / 2 and -pi <= self.yaw_rad <= pi):
+            raise FrameError(f"host point is out of range: {self}")
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,25 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 from egotouch_sdk import clock
 from egotouch_sdk.config import TouchConfig
+from egotouch_sdk.engine import EventEngine
 from egotouch_sdk.errors import FrameError
-from egotouch_sdk.filters import MedianFilter
 from egotouch_sdk.frame import Frame
+from egotouch_sdk.frame_observation import CLOSED, FrameObservation
 from egotouch_sdk.frame_result import STAGES, FrameResult
 from egotouch_sdk.gate import HostMemory, find_pairs
 from egotouch_sdk.hands.base import HandSource
 from egotouch_sdk.hands.tracker import HandTracker
-from egotouch_sdk.observation import FingertipPatch, GateReason, GateResult, HandObservation
+from egotouch_sdk.observation import FingertipPatch, GateResult, HandObservation
 from egotouch_sdk.patches import extract
-from egotouch_sdk.state import FingertipSample, Thresholds, TouchStateMachine
+from egotouch_sdk.state import Thresholds
 from egotouch_sdk.touch import TouchModel
 from egotouch_sdk.touch_event import CancelReason, TouchEvent
 
 __all__ = ["STAGES", "FrameResult", "TouchPipeline"]
 
-_CLOSED = GateResult(GateReason.NO_HANDS)
 
 
 class TouchPipeline:
@@ -44,11 +45,11 @@ class TouchPipeline:
         self.config = config = config or TouchConfig()
         self.hands: HandSource = hands or HandTracker(**config.hands.model_dump())
         self.touch = touch or TouchModel(config.touch.model_path, config.touch.threads)
-        self._filter = MedianFilter(config.state.coast_frames)
-        self._machine = TouchStateMachine(config.state, self._thresholds())
+        manifest = self.touch.manifest
+        self.engine = EventEngine(config, Thresholds(manifest.down_probability, manifest.up_probability))
         self._host_memory = HostMemory(round(config.gate.host_memory_ms * 1e6))
         self._stall_ns = round(config.state.stall_ms * 1e6)
-        self._gate = _CLOSED
+        self._gate = CLOSED
         self._time_ns: int | None = None
         self._now_ns = now_ns
 
@@ -67,33 +68,23 @@ class TouchPipeline:
         laps.end("patches")
         estimates = self.touch.estimate(patches)
         laps.end("touch")
-        filtered = self._filter.apply(estimates)
-        laps.end("filters")
-        hosts = {pair.touching.hand_id: pair.host for pair in gate.pairs}
-        samples = [
-            FingertipSample.join(frame, hosts[patch.hand_id], patch, estimate) for patch, estimate in zip(patches, filtered, strict=True)
-        ]
-        events = self._machine.step(samples, frame.timestamp_ns)
-        laps.end("state")
-        return FrameResult(frame.index, frame.timestamp_ns, hands, gate, patches, estimates, filtered, events, laps.stage_ms)
+        observation = FrameObservation(
+            frame.index, frame.timestamp_ns, frame.width_px, frame.height_px, hands, gate, patches, estimates
+        )
+        result = self.engine.process(observation)
+        laps.end("events")
+        return replace(result, stage_ms=laps.stage_ms)
 
     def finish(self, timestamp_ns: int, reason: CancelReason = CancelReason.SOURCE_ENDED) -> tuple[TouchEvent, ...]:
         """Cancel what is still touching, let every pointer leave and forget the past; afterwards another source may follow.
 
         `timestamp_ns` is the capture time to stamp the events with; they are never stamped before the last frame.
         """
-        events = self._machine.finish(timestamp_ns, reason)
+        events = self.engine.finish(timestamp_ns, reason)
         self._forget()
         self.hands.reset()
         self._time_ns = None
         return events
-
-    def _thresholds(self) -> Thresholds:
-        state, manifest = self.config.state, self.touch.manifest
-        return Thresholds(
-            down=manifest.down_probability if state.down_probability is None else state.down_probability,
-            up=manifest.up_probability if state.up_probability is None else state.up_probability,
-        )
 
     def _find_pairs(self, hands: tuple[HandObservation, ...], timestamp_ns: int) -> GateResult:
         complete = self._host_memory.complete(hands, timestamp_ns)
@@ -116,9 +107,8 @@ class TouchPipeline:
         self._time_ns = timestamp_ns
 
     def _forget(self) -> None:
-        self._filter.reset()
         self._host_memory.reset()
-        self._gate = _CLOSED
+        self._gate = CLOSED
 
 
 class _Laps:

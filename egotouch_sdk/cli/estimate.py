@@ -47,7 +47,7 @@ def cut(path: Path, tip: tuple[float, float], px_per_mm: float, left: bool) -> F
     from egotouch_sdk.errors import FrameError
     from egotouch_sdk.joints import Finger, Handedness
     from egotouch_sdk.observation import FingertipPatch
-    from egotouch_sdk.patches import HOST_UNKNOWN, cut_patch
+    from egotouch_sdk.patches import cut_patch
     from egotouch_sdk.sources import read_image
 
     image = read_image(path)
@@ -56,7 +56,7 @@ def cut(path: Path, tip: tuple[float, float], px_per_mm: float, left: bool) -> F
         raise FrameError(f"the tip {tip[0]:g},{tip[1]:g} is outside {path} ({width}x{height} px)", hint="Give --tip in its pixels")
     pixels = cut_patch(image, tip, (0.0, -1.0), px_per_mm, left)
     side = Handedness.LEFT if left else Handedness.RIGHT
-    return FingertipPatch(0, side, Finger.INDEX, pixels, *HOST_UNKNOWN, tip, px_per_mm)
+    return FingertipPatch(hand_id=0, handedness=side, finger=Finger.INDEX, tip_px=tip, px_per_mm=px_per_mm, image=pixels)
 
 
 def estimate(options: argparse.Namespace) -> int:

@@ -9,8 +9,6 @@ from typing import Any
 from egotouch_sdk.clock import now_ns
 from egotouch_sdk.touch_event import EventType, TouchEvent
 
-#: Events that come with every frame; they are left out of the lines for people, never out of the JSON.
-CONTINUOUS = frozenset({EventType.MOVE, EventType.HOVER_MOVE})
 #: On a terminal one line is rewritten often; elsewhere every report is a line of its own.
 _REPORT_EVERY_NS = {True: 250_000_000, False: 1_000_000_000}
 
@@ -66,7 +64,7 @@ class Progress:
 
 
 class EventPrinter:
-    """Prints events as they come, as JSON or as lines for people."""
+    """Prints events as they come, as JSON or, without those that come with every frame, as lines for people."""
 
     def __init__(self, as_json: bool, progress: Progress) -> None:
         self._as_json = as_json
@@ -74,7 +72,7 @@ class EventPrinter:
 
     def __call__(self, event: TouchEvent) -> None:
         """Print one event."""
-        if event.type in CONTINUOUS and not self._as_json:
+        if not event.type.is_edge and not self._as_json:
             return
         self._progress.clear()
         if self._as_json:

@@ -48,7 +48,7 @@ def count_false_touches(frames: Iterable[Frame], pipeline: TouchPipeline) -> Fal
         result = pipeline.process(frame)
         times.append(frame.timestamp_ns)
         downs += sum(event.type is EventType.DOWN for event in result.events)
-        patches += len(result.patches)
+        patches += len(result.fingertips)
         with_hands += bool(result.hands)
         gate_open += result.gate.is_open
     if times:

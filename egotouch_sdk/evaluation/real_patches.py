@@ -18,7 +18,7 @@ from egotouch_sdk.evaluation.darkness import darkness
 from egotouch_sdk.evaluation.metrics import auroc, spearman, touch_scores
 from egotouch_sdk.joints import Finger, Handedness
 from egotouch_sdk.observation import FingertipPatch, TouchEstimate
-from egotouch_sdk.patches import HOST_UNKNOWN, cut_patch
+from egotouch_sdk.patches import cut_patch
 from egotouch_sdk.touch import TouchModel
 
 LABELS_FILE = "labels.csv"
@@ -71,7 +71,10 @@ def read_real_patches(
 
 def estimate_all(patches: Sequence[RealPatch], model: TouchModel) -> list[TouchEstimate]:
     """The model's answers, host unknown."""
-    shown = [FingertipPatch(0, Handedness.RIGHT, Finger.THUMB, p.image, *HOST_UNKNOWN, (0.0, 0.0), 1.0) for p in patches]
+    shown = [
+        FingertipPatch(hand_id=0, handedness=Handedness.RIGHT, finger=Finger.THUMB, tip_px=(0.0, 0.0), px_per_mm=1.0, image=patch.image)
+        for patch in patches
+    ]
     return [estimate for start in range(0, len(shown), BATCH) for estimate in model.estimate(shown[start : start + BATCH])]
 
 

@@ -10,10 +10,6 @@ from egotouch_sdk.errors import ConfigError
 from egotouch_sdk.state.sample import FingertipSample
 from egotouch_sdk.state.table import Input
 
-#: Wrist to middle MCP in millimetres between MediaPipe's landmarks, to turn palm lengths into a speed (the generic WebXR hand
-#: with landmarks placed as MediaPipe places them, our measurement).
-PALM_MM = 83.0
-
 
 @dataclass(frozen=True, slots=True)
 class Thresholds:
@@ -26,6 +22,12 @@ class Thresholds:
         if not 0.0 < self.up <= self.down < 1.0:
             raise ConfigError(f"touch thresholds are down={self.down}, up={self.up}", hint="Choose 0 < up <= down < 1")
 
+    def overridden_by(self, config: StateConfig) -> Thresholds:
+        """These thresholds, with those that `config` sets in their place; `ConfigError` when they contradict each other."""
+        down = self.down if config.down_probability is None else config.down_probability
+        up = self.up if config.up_probability is None else config.up_probability
+        return Thresholds(down, up)
+
     def read(self, touch_probability: float) -> Input:
         """The input that a seen fingertip gives."""
         if touch_probability >= self.down:
@@ -36,12 +38,10 @@ class Thresholds:
 def has_jumped(before: FingertipSample, after: FingertipSample, elapsed_ns: int, config: StateConfig) -> bool:
     """True when a fingertip would have had to move faster than a finger can.
 
-    The way is measured across the image and, where both samples know it, across the host limb; the shorter one counts, since
-    a turning head moves the image and a noisy host moves the limb.
+    The way is measured across the image and across the host limb; the shorter one counts, since a turning head moves the image
+    and a noisy host moves the limb.
     """
     scale = max(before.px_per_mm, after.px_per_mm)
-    way_mm = hypot(after.tip_px[0] - before.tip_px[0], after.tip_px[1] - before.tip_px[1]) / scale
-    if before.host_palms is not None and after.host_palms is not None:
-        on_host = hypot(after.host_palms[0] - before.host_palms[0], after.host_palms[1] - before.host_palms[1])
-        way_mm = min(way_mm, on_host * PALM_MM)
-    return way_mm > config.max_speed_mm_s * elapsed_ns / 1e9 + config.jump_slack_mm
+    in_image_mm = hypot(after.tip_px[0] - before.tip_px[0], after.tip_px[1] - before.tip_px[1]) / scale
+    on_host_mm = hypot(after.point.x_mm - before.point.x_mm, after.point.y_mm - before.point.y_mm)
+    return min(in_image_mm, on_host_mm) > config.max_speed_mm_s * elapsed_ns / 1e9 + config.jump_slack_mm

@@ -25,11 +25,12 @@ All times are capture times; no clock is read.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from egotouch_sdk.config import StateConfig
 from egotouch_sdk.errors import FrameError
 from egotouch_sdk.joints import Finger, Handedness
+from egotouch_sdk.observation import HostPoint
 from egotouch_sdk.state.inputs import Thresholds, has_jumped
 from egotouch_sdk.state.sample import FingertipSample
 from egotouch_sdk.state.table import INPUT_OF_REASON, REASONS, TABLE, Input, PointerState
@@ -48,13 +49,17 @@ class _Pointer:
     state: PointerState = PointerState.ABSENT
     contact_id: int = 0
     missed_frames: int = 0
+    down_ns: int = 0
+    down: HostPoint = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.down = self.last.point
 
 
 class TouchStateMachine:
     """Turns the samples of one frame after another into events that keep the grammar.
 
-    At most one pointer is open per finger of each side; `pointer_id` counts up and is never used twice. `x_palms` and `y_palms` are
-    both 0 in a frame whose host has no usable axis.
+    At most one pointer is open per finger of each side; `pointer_id` counts up and is never used twice.
     """
 
     def __init__(self, config: StateConfig, thresholds: Thresholds) -> None:
@@ -122,23 +127,30 @@ class TouchStateMachine:
         for event_type in types:
             if event_type is EventType.DOWN:
                 pointer.contact_id += 1
+                pointer.down_ns, pointer.down = self._time_ns, pointer.last.point
             yield self._event(event_type, pointer, cause)
 
     def _event(self, event_type: EventType, pointer: _Pointer, cause: Input) -> TouchEvent:
-        sample = pointer.last
-        x_palms, y_palms = sample.host_palms or (0.0, 0.0)
+        sample, point, down = pointer.last, pointer.last.point, pointer.down
+        is_hover = event_type.is_hover
         return TouchEvent(
             type=event_type,
             pointer_id=pointer.pointer_id,
             contact_id=pointer.contact_id,
             timestamp_ns=self._time_ns,
+            down_time_ns=None if is_hover else pointer.down_ns,
             hand=sample.handedness,
             finger=sample.finger,
+            surface=point.surface,
             touch_probability=sample.touch_probability,
             force_n=sample.force_n if event_type in _WITH_FORCE else 0.0,
+            x_mm=point.x_mm,
+            y_mm=point.y_mm,
+            dx_mm=0.0 if is_hover else point.x_mm - down.x_mm,
+            dy_mm=0.0 if is_hover else point.y_mm - down.y_mm,
+            pitch_rad=point.pitch_rad,
+            yaw_rad=point.yaw_rad,
             image_x=sample.image_xy[0],
             image_y=sample.image_xy[1],
-            x_palms=x_palms,
-            y_palms=y_palms,
             reason=REASONS[cause] if event_type is EventType.CANCEL else None,
         )

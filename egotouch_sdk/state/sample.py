@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from egotouch_sdk.frame import Frame
-from egotouch_sdk.hand_geometry import host_frame_xy
 from egotouch_sdk.joints import Finger, Handedness
-from egotouch_sdk.observation import FingertipPatch, HandObservation, TouchEstimate
+from egotouch_sdk.observation import Fingertip, HostPoint, TouchEstimate
 
 
 @dataclass(frozen=True, slots=True)
@@ -15,8 +13,7 @@ class FingertipSample:
     """A fingertip near the host limb.
 
     `touch_probability` 0..1 and `force_n` are filtered. `tip_px` and `px_per_mm` place it in the image, `image_xy` is the same
-    place in 0..1 from the top left. `host_palms` is the tip in the host's frame in palm lengths (see `TouchEvent`), None when
-    the host has no usable axis.
+    place in 0..1 from the top left, `point` its place on the host limb.
     """
 
     hand_id: int
@@ -27,20 +24,20 @@ class FingertipSample:
     tip_px: tuple[float, float]
     px_per_mm: float
     image_xy: tuple[float, float]
-    host_palms: tuple[float, float] | None
+    point: HostPoint
 
     @classmethod
-    def join(cls, frame: Frame, host: HandObservation, patch: FingertipPatch, estimate: TouchEstimate) -> FingertipSample:
-        """Bring together what the stages found out about one fingertip."""
-        x_px, y_px = patch.tip_px
+    def join(cls, size_px: tuple[int, int], tip: Fingertip, estimate: TouchEstimate, point: HostPoint) -> FingertipSample:
+        """Bring together what the stages found out about one fingertip in an image of `size_px` (width, height)."""
+        x_px, y_px = tip.tip_px
         return cls(
-            hand_id=patch.hand_id,
-            handedness=patch.handedness,
-            finger=patch.finger,
+            hand_id=tip.hand_id,
+            handedness=tip.handedness,
+            finger=tip.finger,
             touch_probability=estimate.touch_probability,
             force_n=estimate.force_n,
-            tip_px=patch.tip_px,
-            px_per_mm=patch.px_per_mm,
-            image_xy=((x_px + 0.5) / frame.width_px, (y_px + 0.5) / frame.height_px),
-            host_palms=host_frame_xy(host, patch.tip_px),
+            tip_px=tip.tip_px,
+            px_per_mm=tip.px_per_mm,
+            image_xy=((x_px + 0.5) / size_px[0], (y_px + 0.5) / size_px[1]),
+            point=point,
         )

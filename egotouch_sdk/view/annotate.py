@@ -55,7 +55,7 @@ class Annotator:
         placement = Placement(scale, 0.0, 0.0)
         for hand in result.hands:
             draw_hand(video, hand, placement, role_colour(hand, result.gate))
-        for patch in result.patches:
+        for patch in result.fingertips:
             track = self.timeline.tracks[(patch.handedness, patch.finger)]
             tip = placement.apply(np.asarray(patch.tip_px, np.float32))
             draw_tip(video, tip, track.state, track.samples[-1].force_n)

@@ -8,7 +8,7 @@ from enum import StrEnum
 
 from egotouch_sdk.frame_result import FrameResult
 from egotouch_sdk.joints import Finger, Handedness
-from egotouch_sdk.observation import FingertipPatch, TouchEstimate
+from egotouch_sdk.observation import Fingertip, FingertipPatch, TouchEstimate
 from egotouch_sdk.touch_event import EventType, TouchEvent
 
 #: A fingertip as people name it: whose hand, which finger.
@@ -35,10 +35,6 @@ STATE_AFTER: dict[EventType, TipState] = {
     EventType.UP: TipState.HOVER,
     EventType.CANCEL: TipState.HOVER,
 }
-
-#: Too many of these to be worth a line.
-UNLISTED = frozenset({EventType.MOVE, EventType.HOVER_MOVE})
-
 
 @dataclass(frozen=True, slots=True)
 class Sample:
@@ -76,13 +72,14 @@ class Timeline:
         if true_force_n is not None:
             self.true_forces.append((self.now_ns, true_force_n))
         for event in result.events:
-            self._track((event.hand, event.finger)).state = STATE_AFTER[event.type]
+            track = self._track((event.hand, event.finger))
+            track.state = STATE_AFTER.get(event.type, track.state)
             self.touches += event.type is EventType.DOWN
-            if event.type not in UNLISTED:
+            if event.type.is_edge:
                 self.ticker.append(event)
         estimates = {(estimate.hand_id, estimate.finger): estimate for estimate in result.filtered}
-        for patch in result.patches:
-            self._add_sample(patch, estimates.get((patch.hand_id, patch.finger)))
+        for tip in result.fingertips:
+            self._add_sample(tip, estimates.get((tip.hand_id, tip.finger)))
         self._forget()
 
     def newest(self, limit: int) -> list[tuple[Tip, Track]]:
@@ -96,9 +93,9 @@ class Timeline:
     def _track(self, tip: Tip) -> Track:
         return self.tracks.setdefault(tip, Track())
 
-    def _add_sample(self, patch: FingertipPatch, estimate: TouchEstimate | None) -> None:
-        track = self._track((patch.handedness, patch.finger))
-        track.patch = patch
+    def _add_sample(self, tip: Fingertip, estimate: TouchEstimate | None) -> None:
+        track = self._track((tip.handedness, tip.finger))
+        track.patch = tip if isinstance(tip, FingertipPatch) else None
         probability, force_n = (estimate.touch_probability, estimate.force_n) if estimate else (0.0, 0.0)
         track.samples.append(Sample(self.now_ns, probability, force_n, track.state))
 

@@ -14,11 +14,16 @@ PACKAGE = Path(__file__).parents[2] / "egotouch_sdk"
 
 #: A module imports only from lower ranks or from its own sub-package.
 RANKS: tuple[frozenset[str], ...] = (
-    frozenset({"errors", "joints", "clock"}),
+    frozenset({"errors", "joints", "surface", "clock"}),
     frozenset({"frame", "observation", "touch_event"}),
-    frozenset({"config", "hand_geometry", "model_input", "model_store", "inference", "frame_result"}),
-    frozenset({"sources", "hands", "gate", "patches", "touch", "filters", "state"}),
+    frozenset({"frame_observation", "config", "hand_geometry", "model_input", "model_store", "inference", "events"}),
+    frozenset({"frame_result"}),
+    frozenset({"wire"}),
+    frozenset({"recording", "simulator", "listeners"}),
+    frozenset({"sources", "hands", "gate", "patches", "touch", "filters", "host_frame", "state", "gestures", "skin"}),
+    frozenset({"engine"}),
     frozenset({"pipeline"}),
+    frozenset({"ego_touch", "server"}),
     frozenset({"view", "benchmark", "synthetic", "evaluation"}),
     frozenset({"training", "cli"}),
     frozenset({"__main__"}),

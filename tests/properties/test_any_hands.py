@@ -11,6 +11,7 @@ from egotouch_sdk.config import GateConfig
 from egotouch_sdk.errors import FrameError
 from egotouch_sdk.frame import Frame
 from egotouch_sdk.gate import find_pairs
+from egotouch_sdk.host_frame import locate
 from egotouch_sdk.joints import FINGERS, Handedness
 from egotouch_sdk.observation import GateReason, HandObservation, TouchEstimate
 from egotouch_sdk.patches import extract
@@ -54,9 +55,11 @@ def test_gate_and_patches_take_any_hands(hands: list[HandObservation]) -> None:
         assert pair.touching.hand_id != pair.host.hand_id
         for patch in extract(FRAME, pair):
             assert np.isfinite([patch.r_palms, patch.theta_rad, patch.px_per_mm]).all()
-            sample = FingertipSample.join(FRAME, pair.host, patch, TouchEstimate(patch.hand_id, patch.finger, 0.5, 1.0))
-            assert 0.0 <= min(sample.image_xy) <= max(sample.image_xy) <= 1.0
-            assert sample.host_palms is None or np.isfinite(sample.host_palms).all()
+            point = locate(pair, patch.finger)
+            if point is not None:
+                size_px = FRAME.width_px, FRAME.height_px
+                sample = FingertipSample.join(size_px, patch, TouchEstimate(patch.hand_id, patch.finger, 0.5, 1.0), point)
+                assert 0.0 <= min(sample.image_xy) <= max(sample.image_xy) <= 1.0
 
 
 @given(st.lists(placed_hands(), min_size=2, max_size=2).map(numbered))

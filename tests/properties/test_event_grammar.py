@@ -10,9 +10,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from egotouch_sdk.config import StateConfig
+from egotouch_sdk.events import GrammarVerifier
 from egotouch_sdk.joints import FINGERS, Handedness
-from egotouch_sdk.state import FingertipSample, GrammarVerifier, Thresholds, TouchStateMachine
+from egotouch_sdk.observation import HostPoint
+from egotouch_sdk.state import FingertipSample, Thresholds, TouchStateMachine
 from egotouch_sdk.state.inputs import has_jumped
+from egotouch_sdk.surface import Surface
 from egotouch_sdk.touch_event import CancelReason, EventType, TouchEvent
 from tests.properties.strategies import STREAMS
 
@@ -97,6 +100,6 @@ def test_many_random_streams_keep_the_grammar() -> None:
 
 def random_sample(rng: random.Random, side: Handedness, finger: str) -> FingertipSample:
     x, y = 500 + rng.choice([0.0, 0.0, 3.0, 600.0]), 500.0
-    host = (x / 190, y / 190) if rng.random() < 0.7 else None
+    point = HostPoint(Surface.PALM, x / 2, y / 2, 0.7, 0.0)
     hand_id = 1 + (rng.random() < 0.05)
-    return FingertipSample(hand_id, side, finger, rng.choice([0.1, 0.5, 0.9, 0.9]), 1.0, (x, y), 2.0, (x / 2000, 0.5), host)  # type: ignore[arg-type]
+    return FingertipSample(hand_id, side, finger, rng.choice([0.1, 0.5, 0.9, 0.9]), 1.0, (x, y), 2.0, (x / 2000, 0.5), point)  # type: ignore[arg-type]

@@ -5,8 +5,11 @@ from __future__ import annotations
 from collections import deque
 
 from egotouch_sdk.config import StateConfig
+from egotouch_sdk.events import GrammarVerifier
 from egotouch_sdk.joints import Finger, Handedness
-from egotouch_sdk.state import FingertipSample, GrammarVerifier, Thresholds, TouchStateMachine
+from egotouch_sdk.observation import HostPoint
+from egotouch_sdk.state import FingertipSample, Thresholds, TouchStateMachine
+from egotouch_sdk.surface import Surface
 from egotouch_sdk.touch_event import CancelReason, EventType, TouchEvent
 
 FRAME_NS = 33_333_333
@@ -69,7 +72,7 @@ class ScriptedFinger:
             (x_px, y_px),
             2.0,
             (x_px / 1000, y_px / 1000),
-            (self.x_mm / 83, self.y_mm / 83),
+            HostPoint(Surface.PALM, self.x_mm, self.y_mm, 0.7, 0.0),
         )
 
     def expect(self, *types: EventType) -> TouchEvent:

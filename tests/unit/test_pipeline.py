@@ -6,10 +6,11 @@ import pytest
 
 from egotouch_sdk.config import StateConfig, TouchConfig
 from egotouch_sdk.errors import ConfigError, FrameError
+from egotouch_sdk.events import GrammarVerifier
 from egotouch_sdk.joints import Finger
 from egotouch_sdk.observation import FingertipPatch, GateReason, TouchEstimate
 from egotouch_sdk.pipeline import STAGES, FrameResult, TouchPipeline
-from egotouch_sdk.state import GrammarVerifier
+from egotouch_sdk.surface import Surface
 from egotouch_sdk.touch import TouchModel
 from egotouch_sdk.touch_event import CancelReason, EventType
 from tests.support.hands import host_hand, palm_centre, pointing_hand
@@ -78,7 +79,7 @@ def test_the_result_tells_what_each_stage_saw(wearer: Wearer) -> None:
     result = wearer.result
     assert result.hands == (FINGER, HOST)
     assert result.gate.reason is GateReason.OPEN
-    assert [patch.finger for patch in result.patches] == [Finger.INDEX]
+    assert [patch.finger for patch in result.fingertips] == [Finger.INDEX]
     assert [e.touch_probability for e in result.estimates] == [0.99]
     assert [e.touch_probability for e in result.filtered] == [0.0]
     assert tuple(result.stage_ms) == STAGES
@@ -92,14 +93,15 @@ def test_events_say_where_the_fingertip_is(wearer: Wearer) -> None:
     x, y = palm_centre(HOST)
     assert (event.image_x, event.image_y) == pytest.approx(((x + 0.5) / 1280, (y + 0.5) / 720), abs=1e-4)
     assert event.timestamp_ns == wearer.result.timestamp_ns
-    assert 0.4 < event.y_palms < 0.8
-    assert abs(event.x_palms) < 0.2
+    assert 33 < event.y_mm < 66
+    assert abs(event.x_mm) < 17
+    assert event.surface is Surface.PALM
 
 
 def test_no_hands_no_events(wearer: Wearer) -> None:
     assert wearer.show(frames=3) == []
     assert wearer.result.gate.reason is GateReason.NO_HANDS
-    assert wearer.result.patches == wearer.result.estimates == ()
+    assert wearer.result.fingertips == wearer.result.estimates == ()
 
 
 def test_a_host_hidden_by_the_finger_is_remembered_for_half_a_second(wearer: Wearer) -> None:

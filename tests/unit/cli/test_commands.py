@@ -121,7 +121,7 @@ def test_bench_reports_stages_rate_threads_and_machine(egotouch: Command, tmp_pa
     report = json.loads(out)
     assert code == 0
     assert (report["frames"], report["width_px"], report["height_px"]) == (2, 1280, 720)
-    assert list(report["stage_ms"]) == ["hands", "gate", "patches", "touch", "filters", "state"]
+    assert list(report["stage_ms"]) == ["hands", "gate", "patches", "touch", "events"]
     assert report["fps"] == pytest.approx(1000 / report["frame_ms_mean"], rel=0.01)
     assert 0 < report["networks_ms"] < report["frame_ms_mean"]
     assert report["outside_networks"] == pytest.approx(1 - report["networks_ms"] / report["frame_ms_mean"], abs=0.01)

@@ -4,8 +4,9 @@ import pytest
 
 from egotouch_sdk.errors import SourceError
 from egotouch_sdk.evaluation.scoreboard import ClipTruth, Scoreboard, score
-from egotouch_sdk.joints import Finger, Handedness
-from egotouch_sdk.touch_event import CancelReason, EventType, TouchEvent
+from egotouch_sdk.joints import Finger
+from egotouch_sdk.touch_event import EventType, TouchEvent
+from tests.support.events import make_event
 
 FPS = 30.0
 
@@ -30,8 +31,7 @@ def truth_of(*spans: tuple[int, int], frames: int = 120, force_n: float = 1.0, f
 
 
 def event(kind: EventType, frame: int, force_n: float = 0.0, finger: Finger = Finger.INDEX) -> TouchEvent:
-    reason = CancelReason.TRACKING_LOST if kind is EventType.CANCEL else None
-    return TouchEvent(kind, 1, 1, at_ns(frame), Handedness.RIGHT, finger, 0.9, force_n, 0.5, 0.5, 0.0, 0.0, reason)
+    return make_event(kind, at_ns(frame), finger=finger, force_n=force_n)
 
 
 def touch(start: int, end: int, force_n: float = 1.0, finger: Finger = Finger.INDEX, last: EventType = EventType.UP) -> list[TouchEvent]:

@@ -17,7 +17,16 @@ from egotouch_sdk.touch import SHIPPED_MODEL, TouchModel
 
 def patch(seed: int, finger: Finger = Finger.INDEX) -> FingertipPatch:
     image = np.random.default_rng(seed).integers(0, 255, (100, 100, 3)).astype(np.uint8)
-    return FingertipPatch(1, Handedness.RIGHT, finger, image, 1.0, 0.2 * seed, (50.0, 50.0), 2.5)
+    return FingertipPatch(
+        hand_id=1,
+        handedness=Handedness.RIGHT,
+        finger=finger,
+        tip_px=(50.0, 50.0),
+        px_per_mm=2.5,
+        r_palms=1.0,
+        theta_rad=0.2 * seed,
+        image=image,
+    )
 
 
 @pytest.fixture(scope="module")

@@ -5,10 +5,13 @@ from __future__ import annotations
 import numpy as np
 
 from egotouch_sdk.frame import Frame
+from egotouch_sdk.frame_observation import FrameObservation
 from egotouch_sdk.frame_result import FrameResult
 from egotouch_sdk.joints import Finger, Handedness
-from egotouch_sdk.observation import FingertipPatch, GateReason, GateResult, HandObservation, TouchEstimate, TouchPair
-from egotouch_sdk.touch_event import CancelReason, EventType, TouchEvent
+from egotouch_sdk.observation import FingertipPatch, GateReason, GateResult, HandObservation, HostPoint, TouchEstimate, TouchPair
+from egotouch_sdk.surface import Surface
+from egotouch_sdk.touch_event import EventType
+from tests.support.events import make_event
 from tests.support.hands import host_hand, palm_centre, pointing_hand
 
 FRAME_NS = 33_333_333
@@ -34,9 +37,18 @@ def touching_result(
     """One frame with both hands, one patch and, with `kind`, one event."""
     time_ns = index * FRAME_NS
     x, y = (float(value) for value in touching.xy_px(finger.tip))
-    patch = FingertipPatch(touching.hand_id, Handedness.RIGHT, finger, PATCH_RED, 0.5, 0.1, (x, y), 2.0)
+    patch = FingertipPatch(
+        hand_id=touching.hand_id,
+        handedness=Handedness.RIGHT,
+        finger=finger,
+        tip_px=(x, y),
+        px_per_mm=2.0,
+        r_palms=0.5,
+        theta_rad=0.1,
+        image=PATCH_RED,
+    )
     estimate = TouchEstimate(touching.hand_id, finger, 0.9, force_n)
-    reason = CancelReason.TRACKING_LOST if kind is EventType.CANCEL else None
-    events = () if kind is None else (TouchEvent(kind, 1, 1, time_ns, Handedness.RIGHT, finger, 0.9, 0.0, 0.5, 0.5, 0.0, 0.0, reason),)
+    events = () if kind is None else (make_event(kind, time_ns, finger=finger),)
     gate = GateResult(GateReason.OPEN, (TouchPair(touching, HOST, 0.5, (finger,)),))
-    return FrameResult(index, time_ns, (touching, HOST), gate, (patch,), (estimate,), (estimate,), events, {})
+    observation = FrameObservation(index, time_ns, 1280, 720, (touching, HOST), gate, (patch,), (estimate,))
+    return FrameResult(observation, (estimate,), (HostPoint(Surface.PALM, 0.0, 50.0, 0.7, 0.0),), events)

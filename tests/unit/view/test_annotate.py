@@ -1,6 +1,7 @@
 import numpy as np
 import pytest
 
+from egotouch_sdk.frame_observation import FrameObservation
 from egotouch_sdk.frame_result import FrameResult
 from egotouch_sdk.joints import HandJoint
 from egotouch_sdk.observation import GateReason, GateResult, HandObservation
@@ -27,7 +28,7 @@ def draw(*kinds: EventType | None, **options: object) -> Image:
 
 def draw_empty(size_px: tuple[int, int] = (1280, 720)) -> Image:
     annotator = Annotator("test")
-    result = FrameResult(0, 0, (), NOTHING, (), (), (), (), {})
+    result = FrameResult(FrameObservation(0, 0, 640, 480))
     annotator.add(result)
     return annotator.draw(blank_frame(size_px=size_px), result)
 

@@ -4,9 +4,10 @@ from dataclasses import replace
 
 import pytest
 
-from egotouch_sdk.joints import Finger, Handedness
-from egotouch_sdk.state import GrammarVerifier
-from egotouch_sdk.touch_event import CancelReason, EventType, TouchEvent
+from egotouch_sdk.events import GrammarVerifier
+from egotouch_sdk.joints import Finger
+from egotouch_sdk.touch_event import EventType, TouchEvent
+from tests.support.events import make_event
 
 GOOD = ("hover_enter", "hover_move", "down", "move", "up", "down", "cancel", "hover_exit")
 
@@ -17,10 +18,7 @@ def stream(*types: str) -> list[TouchEvent]:
     for index, name in enumerate(types):
         event_type = EventType(name)
         contact_id += event_type is EventType.DOWN
-        reason = CancelReason.TRACKING_LOST if event_type is EventType.CANCEL else None
-        events.append(
-            TouchEvent(event_type, 1, contact_id, index, Handedness.RIGHT, Finger.INDEX, 0.5, 0.0, 0.5, 0.5, 0.0, 0.0, reason=reason)
-        )
+        events.append(make_event(event_type, index, contact_id=contact_id))
     return events
 
 

@@ -1,0 +1,82 @@
+"""The event engine: what perception found in one frame after another goes in, touch events come out. No I/O, no clock."""
+
+from __future__ import annotations
+
+from egotouch_sdk.config import TouchConfig
+from egotouch_sdk.errors import FrameError, GrammarError
+from egotouch_sdk.events import GrammarVerifier
+from egotouch_sdk.filters import MedianFilter
+from egotouch_sdk.frame_observation import FrameObservation
+from egotouch_sdk.frame_result import FrameResult
+from egotouch_sdk.host_frame import locate
+from egotouch_sdk.observation import Fingertip, HostPoint
+from egotouch_sdk.state import FingertipSample, Thresholds, TouchStateMachine
+from egotouch_sdk.touch_event import CancelReason, TouchEvent
+
+#: Touch thresholds where neither the settings nor a model give any (a simulator's probabilities are near 0 or 1).
+THRESHOLDS = Thresholds(0.6, 0.4)
+
+
+class EventEngine:
+    """Turns observations into events: filter, host frame, touch state, gestures.
+
+    The same observations and settings give the same events, at any speed and on any machine. `thresholds` are a touch model's own;
+    those that `config.state` sets come before them. Not safe to call from two threads at once.
+    Raises `ConfigError` when the two contradict each other and, with `config.debug`, `GrammarError` for events against the grammar.
+    """
+
+    def __init__(self, config: TouchConfig | None = None, thresholds: Thresholds = THRESHOLDS) -> None:
+        self.config = config or TouchConfig()
+        self.thresholds = thresholds.overridden_by(self.config.state)
+        self._filter = MedianFilter(self.config.state.coast_frames)
+        self._machine = TouchStateMachine(self.config.state, self.thresholds)
+        self._verifier = GrammarVerifier() if self.config.debug else None
+        self._stall_ns = round(self.config.state.stall_ms * 1e6)
+        self._time_ns: int | None = None
+
+    def process(self, observation: FrameObservation) -> FrameResult:
+        """Take one frame's observation; call it for every frame, also when nothing was seen.
+
+        Raises `FrameError` when its time is not after that of the frame before; nothing changes then.
+        """
+        self._advance_time(observation.timestamp_ns)
+        filtered = self._filter.apply(observation.estimates)
+        points = tuple(self._locate(observation, tip) for tip in observation.fingertips)
+        size_px = observation.width_px, observation.height_px
+        samples = [
+            FingertipSample.join(size_px, tip, estimate, point)
+            for tip, estimate, point in zip(observation.fingertips, filtered, points, strict=True)
+            if point is not None
+        ]
+        events = self._machine.step(samples, observation.timestamp_ns)
+        self._verify(events)
+        return FrameResult(observation, filtered, points, events)
+
+    def finish(self, timestamp_ns: int, reason: CancelReason = CancelReason.SOURCE_ENDED) -> tuple[TouchEvent, ...]:
+        """Cancel what is still touching, let every pointer leave and forget the past; afterwards another source may follow.
+
+        `timestamp_ns` is the capture time to stamp the events with; they are never stamped before the last frame.
+        """
+        events = self._machine.finish(timestamp_ns, reason)
+        self._verify(events)
+        self._filter.reset()
+        self._time_ns = None
+        return events
+
+    def _locate(self, observation: FrameObservation, tip: Fingertip) -> HostPoint | None:
+        pair = next(pair for pair in observation.gate.pairs if pair.touching.hand_id == tip.hand_id)
+        return locate(pair, tip.finger, self.config.host, mirrored=self.config.hands.mirrored)
+
+    def _advance_time(self, timestamp_ns: int) -> None:
+        if self._time_ns is not None:
+            if timestamp_ns <= self._time_ns:
+                raise FrameError(
+                    f"frame time {timestamp_ns} ns is not after {self._time_ns} ns", hint="Call finish() before another source"
+                )
+            if timestamp_ns - self._time_ns > self._stall_ns:
+                self._filter.reset()
+        self._time_ns = timestamp_ns
+
+    def _verify(self, events: tuple[TouchEvent, ...]) -> None:
+        if self._verifier and (violations := self._verifier.feed(events)):
+            raise GrammarError("; ".join(violation.rule for violation in violations))
