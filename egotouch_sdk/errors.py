@@ -6,6 +6,7 @@
     ├── FrameError         an array or data object has the wrong shape, type or range
     ├── ModelError         a model file is missing, altered or of the wrong kind
     ├── GrammarError       events break the event grammar (only ever raised in debug mode)
+    ├── LayoutError        a skin layout cannot be built: a bad region, a name used twice, an unknown key
     ├── RecordingError     a recording cannot be read, or was made by an incompatible version
     ├── ProtocolError      a message of the wire protocol is malformed or out of order
     └── MissingExtraError  an optional dependency is not installed
@@ -58,6 +59,12 @@ class GrammarError(EgoTouchError):
     """Events break the event grammar: a defect of the SDK, or of a program that makes events itself."""
 
     code = "grammar"
+
+
+class LayoutError(EgoTouchError, ValueError):
+    """A layout of skin views cannot be built: a polygon that crosses itself, a name used twice, a key that does not exist."""
+
+    code = "layout"
 
 
 class RecordingError(EgoTouchError):
