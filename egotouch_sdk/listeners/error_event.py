@@ -18,6 +18,6 @@ class ErrorEvent:
     `onClick of dial (app.py:12)`. `event` is what the listener was handling, None when the source failed.
     """
 
-    error: Exception
+    error: BaseException
     site: str
     event: TouchEvent | TrackingState | None = None
