@@ -43,6 +43,10 @@ class SourceError(EgoTouchError):
     code = "source"
 
 
+class SourceWarning(UserWarning):
+    """A source ended early or repaired its own metadata, but what it delivered is sound."""
+
+
 class FrameError(EgoTouchError, ValueError):
     """A value handed to the SDK has the wrong shape, type, unit or order."""
 

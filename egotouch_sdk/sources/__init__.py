@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from egotouch_sdk.sources.base import FrameSource, SourceWarning
+from egotouch_sdk.sources.base import FrameSource, ObservationSource, SourceWarning
 from egotouch_sdk.sources.camera import CameraSource
 from egotouch_sdk.sources.image_folder import ImageFolderSource, read_image
 from egotouch_sdk.sources.opener import open_source
@@ -13,6 +13,7 @@ __all__ = [
     "CameraSource",
     "FrameSource",
     "ImageFolderSource",
+    "ObservationSource",
     "PushSource",
     "SourceWarning",
     "VideoFileSource",

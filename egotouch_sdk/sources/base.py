@@ -1,4 +1,4 @@
-"""What every source of frames has in common."""
+"""What every source has in common: of camera frames, and of what perception found in them."""
 
 from __future__ import annotations
 
@@ -7,11 +7,13 @@ from collections.abc import Iterator
 from types import TracebackType
 from typing import Protocol, Self, runtime_checkable
 
+from egotouch_sdk.config import TouchConfig
+from egotouch_sdk.errors import SourceWarning
 from egotouch_sdk.frame import Frame
+from egotouch_sdk.frame_observation import FrameObservation
+from egotouch_sdk.state import Thresholds
 
-
-class SourceWarning(UserWarning):
-    """A source ended early or repaired its own metadata, but what it delivered is sound."""
+__all__ = ["FrameSource", "ObservationSource", "SourceWarning"]
 
 
 @runtime_checkable
@@ -54,6 +56,64 @@ class FrameSource(Protocol):
     @abstractmethod
     def close(self) -> None:
         """Release the device or file; may be called twice."""
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
+        self.close()
+
+
+@runtime_checkable
+class ObservationSource(Protocol):
+    """An iterable of what perception found in each frame, closed after use: a recording or a simulator.
+
+    An `EventEngine` turns its observations into events, where a `FrameSource` needs a whole `TouchPipeline`. Otherwise the same
+    holds: timestamps rise strictly, and iterating raises a typed error when observations stop for any reason but the end.
+    """
+
+    @property
+    @abstractmethod
+    def config(self) -> TouchConfig | None:
+        """Settings to replay with; None where the source has none of its own."""
+
+    @property
+    @abstractmethod
+    def thresholds(self) -> Thresholds | None:
+        """Touch thresholds of the model behind the observations; None where no model was."""
+
+    @property
+    @abstractmethod
+    def is_live(self) -> bool:
+        """True when observations come at the speed of the clock."""
+
+    @property
+    @abstractmethod
+    def width_px(self) -> int | None:
+        """Width in pixels of the image that was observed."""
+
+    @property
+    @abstractmethod
+    def height_px(self) -> int | None:
+        """Height in pixels of the image that was observed."""
+
+    @property
+    @abstractmethod
+    def fps(self) -> float | None:
+        """Observations per second as announced."""
+
+    @property
+    @abstractmethod
+    def frame_count(self) -> int | None:
+        """Number of observations, where it is known beforehand."""
+
+    @abstractmethod
+    def __iter__(self) -> Iterator[FrameObservation]:
+        """Yield observations in capture order."""
+
+    @abstractmethod
+    def close(self) -> None:
+        """Release the file; may be called twice."""
 
     def __enter__(self) -> Self:
         return self
