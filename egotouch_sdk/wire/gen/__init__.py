@@ -1,0 +1,1 @@
+"""Classes that proto/generate.py makes from the schema; never edited by hand."""
