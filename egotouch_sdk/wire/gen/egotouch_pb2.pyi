@@ -186,7 +186,7 @@ class ClientMessage(_message.Message):
     def __init__(self, hello: _Optional[_Union[Hello, _Mapping]] = ..., subscribe: _Optional[_Union[Subscribe, _Mapping]] = ..., clock_request: _Optional[_Union[ClockRequest, _Mapping]] = ..., heartbeat: _Optional[_Union[Heartbeat, _Mapping]] = ..., frame: _Optional[_Union[ClientFrame, _Mapping]] = ..., hands: _Optional[_Union[ClientHands, _Mapping]] = ..., simulated: _Optional[_Union[SimulatedPointers, _Mapping]] = ...) -> None: ...
 
 class Hello(_message.Message):
-    __slots__ = ("client", "version", "protocol_minor", "token", "pairing_code", "resume", "features")
+    __slots__ = ("client", "version", "protocol_minor", "token", "pairing_code", "resume", "features", "subscribe")
     CLIENT_FIELD_NUMBER: _ClassVar[int]
     VERSION_FIELD_NUMBER: _ClassVar[int]
     PROTOCOL_MINOR_FIELD_NUMBER: _ClassVar[int]
@@ -194,6 +194,7 @@ class Hello(_message.Message):
     PAIRING_CODE_FIELD_NUMBER: _ClassVar[int]
     RESUME_FIELD_NUMBER: _ClassVar[int]
     FEATURES_FIELD_NUMBER: _ClassVar[int]
+    SUBSCRIBE_FIELD_NUMBER: _ClassVar[int]
     client: str
     version: str
     protocol_minor: int
@@ -201,7 +202,8 @@ class Hello(_message.Message):
     pairing_code: str
     resume: Resume
     features: _containers.RepeatedScalarFieldContainer[str]
-    def __init__(self, client: _Optional[str] = ..., version: _Optional[str] = ..., protocol_minor: _Optional[int] = ..., token: _Optional[str] = ..., pairing_code: _Optional[str] = ..., resume: _Optional[_Union[Resume, _Mapping]] = ..., features: _Optional[_Iterable[str]] = ...) -> None: ...
+    subscribe: Subscribe
+    def __init__(self, client: _Optional[str] = ..., version: _Optional[str] = ..., protocol_minor: _Optional[int] = ..., token: _Optional[str] = ..., pairing_code: _Optional[str] = ..., resume: _Optional[_Union[Resume, _Mapping]] = ..., features: _Optional[_Iterable[str]] = ..., subscribe: _Optional[_Union[Subscribe, _Mapping]] = ...) -> None: ...
 
 class Resume(_message.Message):
     __slots__ = ("epoch", "offset")
