@@ -32,6 +32,8 @@ COMMANDS = (
 
 #: Import names of optional packages, by the extra that brings them.
 EXTRA_PACKAGES = {
+    "debug": ("rich", "textual"),
+    "simulate": ("yaml",),
     "synthetic": ("av", "drjit", "mitsuba", "pygltflib", "scipy"),
     "train": ("lightning", "onnx", "torch"),
 }
