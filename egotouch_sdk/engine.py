@@ -2,19 +2,58 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from egotouch_sdk.config import TouchConfig
 from egotouch_sdk.errors import FrameError, GrammarError
 from egotouch_sdk.events import GrammarVerifier
+from egotouch_sdk.events.order import RAW
 from egotouch_sdk.filters import MedianFilter
 from egotouch_sdk.frame_observation import FrameObservation
 from egotouch_sdk.frame_result import FrameResult
+from egotouch_sdk.gestures import GestureRecognizer, GestureStates
 from egotouch_sdk.host_frame import locate
+from egotouch_sdk.joints import Finger, Handedness
 from egotouch_sdk.observation import Fingertip, HostPoint
-from egotouch_sdk.state import FingertipSample, Thresholds, TouchStateMachine
-from egotouch_sdk.touch_event import CancelReason, TouchEvent
+from egotouch_sdk.state import FingertipSample, PointerState, Thresholds, TouchStateMachine
+from egotouch_sdk.touch_event import CancelReason, EventType, TouchEvent
 
 #: Touch thresholds where neither the settings nor a model give any (a simulator's probabilities are near 0 or 1).
 THRESHOLDS = Thresholds(0.6, 0.4)
+
+
+@dataclass(frozen=True, slots=True)
+class PointerSnapshot:
+    """Where one open pointer is in the state machines.
+
+    `touch` is hover or touch, `unseen_frames` counts the frames it was not seen (0: seen in the last one), `gestures` are the
+    states of its contact. `last_event` is the last raw event (HOVER_*, DOWN, MOVE or UP): all that a newcomer needs to know.
+    """
+
+    touch: PointerState
+    unseen_frames: int
+    gestures: GestureStates
+    last_event: TouchEvent
+
+    @property
+    def pointer_id(self) -> int:
+        """The pointer's number."""
+        return self.last_event.pointer_id
+
+    @property
+    def contact_id(self) -> int:
+        """Number of its current or last touch, 0 before the first."""
+        return self.last_event.contact_id
+
+    @property
+    def hand(self) -> Handedness:
+        """The touching hand."""
+        return self.last_event.hand
+
+    @property
+    def finger(self) -> Finger:
+        """The finger."""
+        return self.last_event.finger
 
 
 class EventEngine:
@@ -30,7 +69,11 @@ class EventEngine:
         self.thresholds = thresholds.overridden_by(self.config.state)
         self._filter = MedianFilter(self.config.state.coast_frames)
         self._machine = TouchStateMachine(self.config.state, self.thresholds)
-        self._verifier = GrammarVerifier() if self.config.debug else None
+        self._gestures = GestureRecognizer(self.config.gestures)
+        self._last_events: dict[int, TouchEvent] = {}
+        self._verifier = (
+            GrammarVerifier(self.config.state.max_speed_mm_s, self.config.state.jump_slack_mm) if self.config.debug else None
+        )
         self._stall_ns = round(self.config.state.stall_ms * 1e6)
         self._time_ns: int | None = None
 
@@ -48,8 +91,7 @@ class EventEngine:
             for tip, estimate, point in zip(observation.fingertips, filtered, points, strict=True)
             if point is not None
         ]
-        events = self._machine.step(samples, observation.timestamp_ns)
-        self._verify(events)
+        events = self._recognize(self._machine.step(samples, observation.timestamp_ns))
         return FrameResult(observation, filtered, points, events)
 
     def finish(self, timestamp_ns: int, reason: CancelReason = CancelReason.SOURCE_ENDED) -> tuple[TouchEvent, ...]:
@@ -57,11 +99,18 @@ class EventEngine:
 
         `timestamp_ns` is the capture time to stamp the events with; they are never stamped before the last frame.
         """
-        events = self._machine.finish(timestamp_ns, reason)
-        self._verify(events)
-        self._filter.reset()
+        events = self._recognize(self._machine.finish(timestamp_ns, reason))
+        self._forget()
         self._time_ns = None
         return events
+
+    @property
+    def pointers(self) -> tuple[PointerSnapshot, ...]:
+        """Every open pointer after the last frame, for a debug view or for a client that joins late."""
+        return tuple(
+            PointerSnapshot(touch, unseen, self._gestures.states(number), self._last_events[number])
+            for number, (touch, unseen) in self._machine.pointers.items()
+        )
 
     def _locate(self, observation: FrameObservation, tip: Fingertip) -> HostPoint | None:
         pair = next(pair for pair in observation.gate.pairs if pair.touching.hand_id == tip.hand_id)
@@ -74,9 +123,20 @@ class EventEngine:
                     f"frame time {timestamp_ns} ns is not after {self._time_ns} ns", hint="Call finish() before another source"
                 )
             if timestamp_ns - self._time_ns > self._stall_ns:
-                self._filter.reset()
+                self._forget()
         self._time_ns = timestamp_ns
 
-    def _verify(self, events: tuple[TouchEvent, ...]) -> None:
+    def _recognize(self, raw: tuple[TouchEvent, ...]) -> tuple[TouchEvent, ...]:
+        events = self._gestures.feed(raw)
+        for event in events:
+            if event.type is EventType.HOVER_EXIT:
+                self._last_events.pop(event.pointer_id, None)
+            elif event.type in RAW:
+                self._last_events[event.pointer_id] = event
         if self._verifier and (violations := self._verifier.feed(events)):
             raise GrammarError("; ".join(violation.rule for violation in violations))
+        return events
+
+    def _forget(self) -> None:
+        self._filter.reset()
+        self._gestures.forget_clicks()

@@ -35,13 +35,14 @@ class Thresholds:
         return Input.LIFTED if touch_probability < self.up else Input.BETWEEN
 
 
-def has_jumped(before: FingertipSample, after: FingertipSample, elapsed_ns: int, config: StateConfig) -> bool:
+def has_jumped(before: FingertipSample, after: FingertipSample, elapsed_ns: int, config: StateConfig, *, is_touching: bool) -> bool:
     """True when a fingertip would have had to move faster than a finger can.
 
-    The way is measured across the image and across the host limb; the shorter one counts, since a turning head moves the image
-    and a noisy host moves the limb.
+    A touch is where it is on the host limb, and must not jump there. While it hovers, the way across the image counts instead
+    where that is shorter: a noisy host then moves the limb, not the finger.
     """
-    scale = max(before.px_per_mm, after.px_per_mm)
-    in_image_mm = hypot(after.tip_px[0] - before.tip_px[0], after.tip_px[1] - before.tip_px[1]) / scale
-    on_host_mm = hypot(after.point.x_mm - before.point.x_mm, after.point.y_mm - before.point.y_mm)
-    return min(in_image_mm, on_host_mm) > config.max_speed_mm_s * elapsed_ns / 1e9 + config.jump_slack_mm
+    way_mm = hypot(after.point.x_mm - before.point.x_mm, after.point.y_mm - before.point.y_mm)
+    if not is_touching:
+        scale = max(before.px_per_mm, after.px_per_mm)
+        way_mm = min(way_mm, hypot(after.tip_px[0] - before.tip_px[0], after.tip_px[1] - before.tip_px[1]) / scale)
+    return way_mm > config.max_speed_mm_s * elapsed_ns / 1e9 + config.jump_slack_mm

@@ -13,8 +13,8 @@ Timing cases. One letter per frame: C = touch probability at or above `down`, b 
     C C - - -    ... down, cancel(tracking_lost), hover_exit          at the third unseen frame
     L - - -      hover_enter, hover_exit
     C C | C      ... down, cancel(source_stalled), hover_exit, hover_enter     "|" = more than 250 ms between two frames
-    C C ! C      ... down, cancel(hand_swapped), hover_exit, hover_enter       "!" = farther than a finger can have moved,
-                 or another hand_id on this side, or the same hand_id on the other side
+    C C ! C      ... down, cancel(hand_swapped), hover_exit, hover_enter       "!" = farther on the limb than a finger can
+                 have moved, or another hand_id on this side, or the same hand_id on the other side
     C C end      ... down, cancel(source_ended), hover_exit
 
 Not handled here: a touch that lifts and lands again between two frames is one touch; a touch shorter than the filter before
@@ -96,13 +96,18 @@ class TouchStateMachine:
                 events += self._advance(slot, pointer, self._thresholds.read(sample.touch_probability))
         return tuple(events)
 
+    @property
+    def pointers(self) -> dict[int, tuple[PointerState, int]]:
+        """State and number of unseen frames of every open pointer, by its id."""
+        return {pointer.pointer_id: (pointer.state, pointer.missed_frames) for pointer in self._pointers.values()}
+
     def finish(self, timestamp_ns: int, reason: CancelReason) -> tuple[TouchEvent, ...]:
         """Cancel every touch and let every pointer leave; stamped no earlier than the last frame.
 
         The next frame may carry any time, so the machine can go on with another source.
         """
         self._time_ns = max(self._time_ns, timestamp_ns)
-        events = tuple(self._end_all(INPUT_OF_REASON[reason]))
+        events = tuple(self._end_all(INPUT_OF_REASON.get(reason, Input.ENDED), reason))
         self._time_ns = -1
         return events
 
@@ -112,15 +117,21 @@ class TouchStateMachine:
                 return Input.SWAPPED
             pointer.missed_frames += 1
             return Input.LOST if pointer.missed_frames > self._config.coast_frames else Input.MISSING
-        if sample.hand_id != pointer.last.hand_id or has_jumped(pointer.last, sample, self._time_ns - pointer.seen_ns, self._config):
+        if sample.hand_id != pointer.last.hand_id or self._has_jumped(pointer, sample):
             return Input.SWAPPED
         return self._thresholds.read(sample.touch_probability)
 
-    def _end_all(self, cause: Input) -> Iterator[TouchEvent]:
-        for slot, pointer in tuple(self._pointers.items()):
-            yield from self._advance(slot, pointer, cause)
+    def _has_jumped(self, pointer: _Pointer, sample: FingertipSample) -> bool:
+        is_touching = pointer.state is PointerState.TOUCH
+        return has_jumped(pointer.last, sample, self._time_ns - pointer.seen_ns, self._config, is_touching=is_touching)
 
-    def _advance(self, slot: tuple[Handedness, Finger], pointer: _Pointer, cause: Input) -> Iterator[TouchEvent]:
+    def _end_all(self, cause: Input, reason: CancelReason | None = None) -> Iterator[TouchEvent]:
+        for slot, pointer in tuple(self._pointers.items()):
+            yield from self._advance(slot, pointer, cause, reason)
+
+    def _advance(
+        self, slot: tuple[Handedness, Finger], pointer: _Pointer, cause: Input, reason: CancelReason | None = None
+    ) -> Iterator[TouchEvent]:
         pointer.state, types = TABLE[pointer.state, cause]
         if pointer.state is PointerState.ABSENT:
             del self._pointers[slot]
@@ -128,9 +139,9 @@ class TouchStateMachine:
             if event_type is EventType.DOWN:
                 pointer.contact_id += 1
                 pointer.down_ns, pointer.down = self._time_ns, pointer.last.point
-            yield self._event(event_type, pointer, cause)
+            yield self._event(event_type, pointer, (reason or REASONS[cause]) if event_type is EventType.CANCEL else None)
 
-    def _event(self, event_type: EventType, pointer: _Pointer, cause: Input) -> TouchEvent:
+    def _event(self, event_type: EventType, pointer: _Pointer, reason: CancelReason | None) -> TouchEvent:
         sample, point, down = pointer.last, pointer.last.point, pointer.down
         is_hover = event_type.is_hover
         return TouchEvent(
@@ -152,5 +163,5 @@ class TouchStateMachine:
             yaw_rad=point.yaw_rad,
             image_x=sample.image_xy[0],
             image_y=sample.image_xy[1],
-            reason=REASONS[cause] if event_type is EventType.CANCEL else None,
+            reason=reason,
         )

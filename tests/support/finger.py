@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections import deque
 
-from egotouch_sdk.config import StateConfig
+from egotouch_sdk.config import GestureConfig, StateConfig
 from egotouch_sdk.events import GrammarVerifier
+from egotouch_sdk.gestures import GestureRecognizer
 from egotouch_sdk.joints import Finger, Handedness
 from egotouch_sdk.observation import HostPoint
 from egotouch_sdk.state import FingertipSample, Thresholds, TouchStateMachine
@@ -17,9 +18,11 @@ DOWN, UP = 0.6, 0.4
 
 
 class ScriptedFinger:
-    """One right index finger over a still host, driven frame by frame at 30 fps through the state machine."""
+    """One right index finger over a still host, driven frame by frame through the state machine and, if asked for, the gestures."""
 
-    def __init__(self, config: StateConfig | None = None) -> None:
+    def __init__(self, config: StateConfig | None = None, gestures: GestureConfig | None = None, fps: float = 30.0) -> None:
+        self.frame_ns = int(1e9 / fps)
+        self.gestures = GestureRecognizer(gestures) if gestures else None
         self.machine = TouchStateMachine(config or StateConfig(), Thresholds(DOWN, UP))
         self.verifier = GrammarVerifier()
         self.time_ns = 0
@@ -44,6 +47,16 @@ class ScriptedFinger:
         self.x_mm, self.y_mm = self.x_mm + dx_mm, self.y_mm + dy_mm
         self._frames(1, self.sample(0.9, force_n))
 
+    def hold(self, duration_ms: float, force_n: float = 1.0) -> None:
+        """Be seen touching in the same place in every frame of this duration."""
+        self._frames(round(duration_ms * 1e6 / self.frame_ns), self.sample(0.9, force_n))
+
+    def tap(self) -> None:
+        """Touch for three frames and be seen lifted in the next."""
+        self.touch_down()
+        self._frames(2, self.sample(0.9, 1.0))
+        self.lift()
+
     def lift(self) -> None:
         """Be seen above the skin again for one frame."""
         self.hover()
@@ -54,7 +67,7 @@ class ScriptedFinger:
 
     def stall(self, gap_ns: int) -> None:
         """Let the camera deliver nothing for longer than one frame: the next frame comes `gap_ns` after the last."""
-        self.time_ns += gap_ns - FRAME_NS
+        self.time_ns += gap_ns - self.frame_ns
 
     def end(self, reason: CancelReason = CancelReason.SOURCE_ENDED) -> None:
         """End the source."""
@@ -83,6 +96,11 @@ class ScriptedFinger:
             assert event.type is event_type, f"expected {event_type}, got {event}"
         return event
 
+    def skip(self, *types: EventType) -> None:
+        """Leave out the next events as long as they have one of these types."""
+        while self.events and self.events[0].type in types:
+            self.events.popleft()
+
     def expect_nothing_else(self) -> None:
         """No event is left, and the grammar was kept so far."""
         assert not self.events, f"unexpected {list(self.events)}"
@@ -90,9 +108,11 @@ class ScriptedFinger:
 
     def _frames(self, count: int, sample: FingertipSample | None) -> None:
         for _ in range(count):
-            self.time_ns += FRAME_NS
+            self.time_ns += self.frame_ns
             self._note(self.machine.step([] if sample is None else [sample], self.time_ns))
 
     def _note(self, events: tuple[TouchEvent, ...]) -> None:
+        if self.gestures:
+            events = self.gestures.feed(events)
         self.verifier.feed(events)
         self.events += events

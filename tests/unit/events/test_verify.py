@@ -5,6 +5,7 @@ from dataclasses import replace
 import pytest
 
 from egotouch_sdk.events import GrammarVerifier
+from egotouch_sdk.events.order import RAW
 from egotouch_sdk.joints import Finger
 from egotouch_sdk.touch_event import EventType, TouchEvent
 from tests.support.events import make_event
@@ -14,11 +15,13 @@ GOOD = ("hover_enter", "hover_move", "down", "move", "up", "down", "cancel", "ho
 
 def stream(*types: str) -> list[TouchEvent]:
     """Events of pointer 1 with the right contact ids."""
-    contact_id, events = 0, []
-    for index, name in enumerate(types):
+    contact_id, down_ns, time_ns, events = 0, 0, 0, []
+    for name in types:
         event_type = EventType(name)
+        time_ns += event_type in RAW
         contact_id += event_type is EventType.DOWN
-        events.append(make_event(event_type, index, contact_id=contact_id))
+        down_ns = time_ns if event_type is EventType.DOWN else down_ns
+        events.append(make_event(event_type, time_ns, contact_id=contact_id, down_time_ns=None if event_type.is_hover else down_ns))
     return events
 
 

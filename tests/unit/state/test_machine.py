@@ -166,6 +166,30 @@ def test_a_turning_head_moves_the_image_but_not_the_finger_on_its_host(finger: S
     finger.expect_nothing_else()
 
 
+def test_a_noisy_host_does_not_end_a_hover(finger: ScriptedFinger) -> None:
+    finger.hover()
+    still = finger.sample(0.1)
+    noisy = replace(still, point=replace(still.point, x_mm=150.0))
+    events = finger.machine.step([noisy], finger.time_ns + FRAME_NS)
+    assert [event.type for event in events] == [HOVER]
+
+
+def test_a_touch_that_jumps_on_the_limb_is_cancelled_also_when_the_image_stands_still(finger: ScriptedFinger) -> None:
+    pressed(finger)
+    still = finger.sample(0.9, 1.0)
+    finger.verifier.feed(events := finger.machine.step([replace(still, point=replace(still.point, x_mm=150.0))], finger.time_ns + FRAME_NS))
+    assert [event.type for event in events] == [CANCEL, EXIT, ENTER]
+    finger.expect_nothing_else()
+
+
+@pytest.mark.parametrize("reason", CancelReason)
+def test_whatever_ends_the_source_is_the_reason(finger: ScriptedFinger, reason: CancelReason) -> None:
+    pressed(finger).end(reason)
+    assert finger.expect(CANCEL).reason is reason
+    finger.expect(EXIT)
+    finger.expect_nothing_else()
+
+
 def test_another_hand_id_on_this_side_is_another_finger(finger: ScriptedFinger) -> None:
     pressed(finger).hand_id = 7
     finger.touch_down()
