@@ -1,8 +1,12 @@
-"""Touching hands without a camera: place fingertips on an imaginary limb and get the observations that a camera would give."""
+"""Touching hands without a camera: fingertips on an imaginary limb, by code or by script, give the observations of a camera.
+
+`observe(SimulatedScene(...), index, timestamp_ns)` makes one observation; `ScriptSource("taps.yaml")` plays a whole script.
+"""
 
 from __future__ import annotations
 
 from egotouch_sdk.simulator.observe import observe
 from egotouch_sdk.simulator.scene import SimulatedFinger, SimulatedScene, SimulatedView, place_at, surface_at
+from egotouch_sdk.simulator.script_source import ScriptSource
 
-__all__ = ["SimulatedFinger", "SimulatedScene", "SimulatedView", "observe", "place_at", "surface_at"]
+__all__ = ["ScriptSource", "SimulatedFinger", "SimulatedScene", "SimulatedView", "observe", "place_at", "surface_at"]

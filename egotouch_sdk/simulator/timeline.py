@@ -1,0 +1,228 @@
+"""From the acts of a script to the scene at any time."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from itertools import pairwise
+from math import radians
+from typing import Final
+
+import numpy as np
+
+from egotouch_sdk.errors import ConfigError
+from egotouch_sdk.joints import FINGERS, Finger, Handedness
+from egotouch_sdk.simulator.motion import Point, along, minimum_jerk, speeding_up
+from egotouch_sdk.simulator.scene import PALM_SIDE, SimulatedFinger, SimulatedScene, surface_at
+from egotouch_sdk.simulator.script import Act, FingerAct, Fling, Hover, Script, Stall, Swap, Vanish
+from egotouch_sdk.surface import Surface
+
+# All of these are our choice.
+#: Acts follow one another at this distance: more than a double tap's 300 ms, so that two taps are two.
+GAP_MS: Final = 400.0
+#: A finger comes into view this long before its first act and stays as long after its last.
+APPEAR_MS: Final = 250.0
+#: Between two acts a finger stays in view for up to this long.
+LINGER_MS: Final = 1500.0
+#: Height of a finger that is not busy, the time to lift it there, and the time to press to the full force.
+REST_MM: Final = 15.0
+LIFT_MS: Final = 80.0
+RAMP_MS: Final = 60.0
+
+
+@dataclass(frozen=True, slots=True)
+class Stroke:
+    """One act of one finger with its time, every default filled in."""
+
+    act: FingerAct
+    number: int
+    start_ms: float
+    hand: Handedness
+    finger: Finger
+    surface: Surface
+    force_n: float
+    pitch_rad: float
+    yaw_rad: float
+
+    @property
+    def end_ms(self) -> float:
+        """When the act is over."""
+        return self.start_ms + self.act.total_ms
+
+    @property
+    def palm_side(self) -> bool:
+        """True when the limb shows its palm's side."""
+        return self.surface in PALM_SIDE
+
+    @property
+    def edge_mm(self) -> float:
+        """Height of the finger at the act's beginning and end."""
+        return self.act.height_mm if isinstance(self.act, Hover) else 0.0
+
+    def place(self, time_ms: float) -> Point:
+        """Where the finger is; a flung one goes on while it lifts."""
+        share = (time_ms - self.start_ms) / self.act.total_ms
+        if not isinstance(self.act, Fling):
+            return along(self.act.path, minimum_jerk(share))
+        lifted = min(max(time_ms - self.end_ms, 0.0) / LIFT_MS, 1.0)
+        # A minimum-jerk movement is 1.875 times as fast in its middle as on average; the rest fades out linearly.
+        glide = 1.875 * (lifted - lifted**2 / 2.0) * LIFT_MS / self.act.total_ms
+        return along(self.act.path, speeding_up(share) + glide)
+
+    def height_mm(self, time_ms: float) -> float:
+        """How high the finger is over the skin, if there were no other act."""
+        if time_ms < self.start_ms or time_ms >= self.end_ms:
+            away_ms = max(self.start_ms - time_ms, time_ms - self.end_ms)
+            return self.edge_mm + (REST_MM - self.edge_mm) * minimum_jerk(away_ms / LIFT_MS)
+        spans = self._spans()
+        if not spans:
+            return self.edge_mm
+        if any(start <= time_ms < end for start, end in spans):
+            return 0.0
+        away_ms = min(max(start - time_ms, time_ms - end) for start, end in spans)
+        return REST_MM * minimum_jerk(away_ms / LIFT_MS)
+
+    def pressed_n(self, time_ms: float) -> float:
+        """The force on the skin: it rises after a touch begins and falls before it ends."""
+        edge_ms = max((min(time_ms - start, end - time_ms) for start, end in self._spans()), default=0.0)
+        return self.force_n * minimum_jerk(edge_ms / RAMP_MS)
+
+    def _spans(self) -> list[tuple[float, float]]:
+        return [(self.start_ms + start, self.start_ms + end) for start, end in self.act.contacts_ms]
+
+
+class Timeline:
+    """The scene of a script at any time, in milliseconds from its start. Raises `ConfigError` for acts that contradict each other."""
+
+    def __init__(self, script: Script, name: str) -> None:
+        self._script = script
+        self._strokes: dict[tuple[Handedness, Finger], list[Stroke]] = {}
+        self._vanished_ms: list[tuple[float, float]] = []
+        self._stalled_ms: list[tuple[float, float]] = []
+        self._swaps_ms: list[float] = []
+        self._schedule(name)
+        self._check(name)
+        self._hosts = tuple(sorted({hand.other for hand, _ in self._strokes} or {script.hand.other}))
+
+    def scene(self, time_ms: float, index: int = 0) -> SimulatedScene | None:
+        """What is seen at this time in picture number `index` (it seeds the noise); None while the camera stalls."""
+        if _within(time_ms, self._stalled_ms):
+            return None
+        generation = sum(at_ms <= time_ms for at_ms in self._swaps_ms)
+        if _within(time_ms, self._vanished_ms):
+            return SimulatedScene(hosts=(), generation=generation)
+        present = [
+            stroke for strokes in self._strokes.values() if (stroke := _nearest(strokes, time_ms)) and self._is_seen(stroke, time_ms)
+        ]
+        sides = {hand: _nearest([s for s in self._all() if s.hand is hand], time_ms) for hand in Handedness}
+        fingers = tuple(
+            self._finger(stroke, time_ms, index)
+            for stroke in present
+            if (side := sides[stroke.hand]) and side.palm_side == stroke.palm_side
+        )
+        nearest = _nearest(self._all(), time_ms)
+        return SimulatedScene(fingers, hosts=self._hosts, palm_side=nearest.palm_side if nearest else True, generation=generation)
+
+    def _schedule(self, name: str) -> None:
+        leader_ms = end_ms = 0.0
+        for number, act in enumerate(self._script.acts, 1):
+            if act.with_ms is None:
+                leader_ms = end_ms + (GAP_MS if act.after_ms is None else act.after_ms)
+            start_ms = leader_ms + (act.with_ms or 0.0)
+            end_ms = max(end_ms, start_ms + act.total_ms)
+            self._add(act, number, start_ms, name)
+        self.duration_ms = end_ms + GAP_MS
+
+    def _add(self, act: Act, number: int, start_ms: float, name: str) -> None:
+        if isinstance(act, FingerAct):
+            stroke = _stroke(self._script, act, number, start_ms)
+            if surface_at(act.at[1], palm_side=stroke.palm_side) is not stroke.surface:
+                raise ConfigError(
+                    f"{name}: act {number} ({act.word}): at = {list(act.at)} is not on the {stroke.surface}",
+                    hint="The hand has y_mm >= 0, the forearm y_mm < 0",
+                )
+            self._strokes.setdefault((stroke.hand, stroke.finger), []).append(stroke)
+        elif isinstance(act, Stall):
+            self._stalled_ms.append((start_ms, start_ms + act.total_ms))
+        elif isinstance(act, Vanish):
+            self._vanished_ms.append((start_ms, start_ms + act.total_ms))
+        elif isinstance(act, Swap):
+            self._swaps_ms.append(start_ms)
+
+    def _check(self, name: str) -> None:
+        for strokes in self._strokes.values():
+            strokes.sort(key=lambda stroke: stroke.start_ms)
+            for a, b in pairwise(strokes):
+                if b.start_ms <= a.end_ms:
+                    raise ConfigError(
+                        f"{name}: act {b.number} ({b.act.word}) begins before act {a.number} of the same {b.hand} {b.finger} has ended",
+                        hint="Use another finger or a longer after_ms",
+                    )
+        for a, b in pairwise(sorted(self._all(), key=lambda stroke: (stroke.hand, stroke.start_ms))):
+            if a.hand is b.hand and a.palm_side != b.palm_side and b.start_ms < a.end_ms:
+                raise ConfigError(
+                    f"{name}: act {b.number} ({b.act.word}) touches the {b.surface} while act {a.number} touches the {a.surface}",
+                    hint="A limb shows one side at a time",
+                )
+
+    def _all(self) -> Iterable[Stroke]:
+        return [stroke for strokes in self._strokes.values() for stroke in strokes]
+
+    def _is_seen(self, stroke: Stroke, time_ms: float) -> bool:
+        if stroke.start_ms - APPEAR_MS <= time_ms <= stroke.end_ms + APPEAR_MS:
+            return True
+        strokes = self._strokes[stroke.hand, stroke.finger]
+        return any(a.end_ms <= time_ms <= b.start_ms and b.start_ms - a.end_ms <= LINGER_MS for a, b in pairwise(strokes))
+
+    def _finger(self, stroke: Stroke, time_ms: float, index: int) -> SimulatedFinger:
+        strokes = self._strokes[stroke.hand, stroke.finger]
+        x_mm, y_mm = self._place(strokes, time_ms, stroke)
+        if self._script.jitter_mm > 0.0:
+            slot = 5 * (stroke.hand is Handedness.LEFT) + FINGERS.index(stroke.finger)
+            noise = np.random.default_rng((self._script.seed, index, slot)).normal(0.0, self._script.jitter_mm, 2)
+            x_mm, y_mm = x_mm + float(noise[0]), y_mm + float(noise[1])
+        hover_mm = min(each.height_mm(time_ms) for each in strokes)
+        return SimulatedFinger(
+            surface_at(y_mm, palm_side=stroke.palm_side),
+            x_mm,
+            y_mm,
+            hover_mm,
+            stroke.pressed_n(time_ms) if hover_mm == 0.0 else 0.0,
+            stroke.pitch_rad,
+            stroke.yaw_rad,
+            stroke.finger,
+            stroke.hand,
+        )
+
+    @staticmethod
+    def _place(strokes: list[Stroke], time_ms: float, nearest: Stroke) -> Point:
+        """On its act's path, or on the way from the end of one act to the beginning of the next."""
+        for a, b in pairwise(strokes):
+            if a.end_ms < time_ms < b.start_ms and b.start_ms - a.end_ms <= LINGER_MS:
+                share = minimum_jerk((time_ms - a.end_ms) / (b.start_ms - a.end_ms))
+                (x0, y0), (x1, y1) = a.place(time_ms), b.place(time_ms)
+                return x0 + share * (x1 - x0), y0 + share * (y1 - y0)
+        return nearest.place(time_ms)
+
+
+def _stroke(script: Script, act: FingerAct, number: int, start_ms: float) -> Stroke:
+    return Stroke(
+        act=act,
+        number=number,
+        start_ms=start_ms,
+        hand=act.hand or script.hand,
+        finger=act.finger or script.finger,
+        surface=act.surface or script.surface,
+        force_n=script.force_n if act.force_n is None else act.force_n,
+        pitch_rad=radians(script.pitch_deg if act.pitch_deg is None else act.pitch_deg),
+        yaw_rad=radians(script.yaw_deg if act.yaw_deg is None else act.yaw_deg),
+    )
+
+
+def _nearest(strokes: Iterable[Stroke], time_ms: float) -> Stroke | None:
+    """The stroke that is under way at this time or closest to it."""
+    return min(strokes, key=lambda stroke: max(stroke.start_ms - time_ms, time_ms - stroke.end_ms), default=None)
+
+
+def _within(time_ms: float, spans_ms: list[tuple[float, float]]) -> bool:
+    return any(start <= time_ms < end for start, end in spans_ms)
