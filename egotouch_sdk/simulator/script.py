@@ -23,8 +23,8 @@
 
 Every act that moves a finger takes hand, finger, surface, force_n, pitch_deg and yaw_deg in place of the script's.
 Every act begins `after_ms` (default 400) after all acts before it have ended. With `with_ms` it joins the last act that has no
-`with_ms` of its own and begins so long after that one began: two fingers touch together, tracking is lost during a touch. Places are [x_mm, y_mm] in the host frame: origin wrist, +y to the middle MCP,
-+x to the host's thumb side.
+`with_ms` of its own and begins so long after that one began: two fingers touch together, tracking is lost during a touch.
+Places are [x_mm, y_mm] in the host frame: origin wrist, +y to the middle MCP, +x to the host's thumb side.
 """
 
 from __future__ import annotations

@@ -11,7 +11,7 @@ from egotouch_sdk.clock import Pacer
 from egotouch_sdk.config import TouchConfig
 from egotouch_sdk.frame_observation import FrameObservation
 from egotouch_sdk.simulator.observe import observe
-from egotouch_sdk.simulator.scene import SimulatedScene, SimulatedView
+from egotouch_sdk.simulator.scene import SimulatedView
 from egotouch_sdk.simulator.script import Script, read_script
 from egotouch_sdk.simulator.timeline import Timeline
 from egotouch_sdk.state import Thresholds
@@ -59,21 +59,27 @@ class ScriptSource:
     @property
     def frame_count(self) -> int:
         """Number of observations; none are given while the camera stalls."""
-        return sum(1 for _ in self._scenes())
+        return sum(not self._timeline.is_stalled(self._time_ms(tick)) for tick in self._ticks())
 
     def __iter__(self) -> Iterator[FrameObservation]:
         """Yield one observation per picture, the first at time 0."""
         pacer = Pacer() if self._realtime else None
-        for index, (timestamp_ns, scene) in enumerate(self._scenes()):
+        index = 0
+        for tick in self._ticks():
+            scene = self._timeline.scene(self._time_ms(tick), tick)
+            if scene is None:
+                continue
+            timestamp_ns = round(tick * 1e9 / self._fps)
             if pacer:
                 pacer.wait(timestamp_ns)
             yield observe(scene, index, timestamp_ns)
+            index += 1
 
-    def _scenes(self) -> Iterator[tuple[int, SimulatedScene]]:
-        for tick in range(1 + int(self._timeline.duration_ms * self._fps / 1e3)):
-            scene = self._timeline.scene(tick * 1e3 / self._fps, tick)
-            if scene is not None:
-                yield round(tick * 1e9 / self._fps), scene
+    def _ticks(self) -> range:
+        return range(1 + int(self._timeline.duration_ms * self._fps / 1e3))
+
+    def _time_ms(self, tick: int) -> float:
+        return tick * 1e3 / self._fps
 
     def close(self) -> None:
         """Nothing is left open after reading the file."""

@@ -106,7 +106,7 @@ class Timeline:
 
     def scene(self, time_ms: float, index: int = 0) -> SimulatedScene | None:
         """What is seen at this time in picture number `index` (it seeds the noise); None while the camera stalls."""
-        if _within(time_ms, self._stalled_ms):
+        if self.is_stalled(time_ms):
             return None
         generation = sum(at_ms <= time_ms for at_ms in self._swaps_ms)
         if _within(time_ms, self._vanished_ms):
@@ -122,6 +122,10 @@ class Timeline:
         )
         nearest = _nearest(self._all(), time_ms)
         return SimulatedScene(fingers, hosts=self._hosts, palm_side=nearest.palm_side if nearest else True, generation=generation)
+
+    def is_stalled(self, time_ms: float) -> bool:
+        """True while the camera gives no pictures."""
+        return _within(time_ms, self._stalled_ms)
 
     def _schedule(self, name: str) -> None:
         leader_ms = end_ms = 0.0
