@@ -16,10 +16,13 @@ class Pacer:
     def __init__(self) -> None:
         self._offset_ns: int | None = None
 
-    def wait(self, timestamp_ns: int) -> None:
-        """Sleep until `timestamp_ns` is due; the first call sets the start. A late frame is not held back at all."""
+    def delay_s(self, timestamp_ns: int) -> float:
+        """Seconds until `timestamp_ns` is due, 0 when it is late; the first call sets the start."""
         if self._offset_ns is None:
             self._offset_ns = now_ns() - timestamp_ns
-        remaining_ns = timestamp_ns + self._offset_ns - now_ns()
-        if remaining_ns > 0:
-            time.sleep(remaining_ns / 1e9)
+        return max(timestamp_ns + self._offset_ns - now_ns(), 0) / 1e9
+
+    def wait(self, timestamp_ns: int) -> None:
+        """Sleep until `timestamp_ns` is due; the first call sets the start. A late frame is not held back at all."""
+        if delay_s := self.delay_s(timestamp_ns):
+            time.sleep(delay_s)

@@ -9,6 +9,7 @@
     ├── LayoutError        a skin layout cannot be built: a bad region, a name used twice, an unknown key
     ├── RecordingError     a recording cannot be read, or was made by an incompatible version
     ├── ProtocolError      a message of the wire protocol is malformed or out of order
+    ├── QueueFullError     an asynchronous consumer that asked for every event is too slow
     └── MissingExtraError  an optional dependency is not installed
 
 Each carries `code` (stable, for programs), `message` (what is wrong) and `hint` (the next step).
@@ -81,6 +82,12 @@ class ProtocolError(EgoTouchError):
     """A message of the wire protocol is malformed, too large or out of order."""
 
     code = "protocol"
+
+
+class QueueFullError(EgoTouchError):
+    """An asynchronous consumer with `overflow="raise"` did not take its events in time."""
+
+    code = "queue_full"
 
 
 class MissingExtraError(EgoTouchError, ImportError):

@@ -26,12 +26,18 @@ class Dispatcher:
         self._changed = Condition()
         self._ending = False
         self._warned = False
+        self._busy = False
         self._thread = Thread(target=self._run, name="egotouch-listeners", daemon=True)
 
     @property
     def merged(self) -> int:
         """Stream events that disappeared into newer ones so far, because listeners were slow."""
         return self._queue.merged
+
+    @property
+    def is_current_thread(self) -> bool:
+        """True inside a listener."""
+        return current_thread() is self._thread
 
     def start(self) -> None:
         """Start the thread; items posted before are delivered first."""
@@ -46,23 +52,31 @@ class Dispatcher:
                 self._queue.push(item)
             waiting, warned = len(self._queue), self._warned
             self._warned = warned or waiting > HANGING_ITEMS
-            self._changed.notify()
+            self._changed.notify_all()
         if waiting > HANGING_ITEMS and not warned:
             _log.error("%d events wait for a listener that does not return", waiting)
+
+    def flush(self) -> None:
+        """Wait until every item posted so far is delivered, or `stop()` is called."""
+        with self._changed:
+            self._changed.wait_for(lambda: not (self._queue or self._busy) or self._ending)
 
     def stop(self) -> None:
         """Deliver what is queued, then end the thread; returns when that is done, or at once when a listener itself calls it."""
         with self._changed:
             self._ending = True
-            self._changed.notify()
-        if self._thread.ident is not None and current_thread() is not self._thread:
+            self._changed.notify_all()
+        if self._thread.ident is not None and not self.is_current_thread:
             self._thread.join()
 
     def _run(self) -> None:
         while True:
             with self._changed:
+                self._busy = False
+                self._changed.notify_all()
                 self._changed.wait_for(lambda: self._queue or self._ending)
                 batch = self._queue.take()
+                self._busy = True
             if not batch:
                 return
             for item in batch:

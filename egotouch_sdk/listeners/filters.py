@@ -28,14 +28,15 @@ def members(kind: type[EnumT], given: str | Collection[str] | None, what: str) -
     names = [given] if isinstance(given, str) else list(given)
     if not names:
         raise ConfigError(f"{what}= is empty and would match nothing", hint="Leave it out to get everything")
-    return frozenset(_member(kind, name, what) for name in names)
+    return frozenset(member(kind, name, what) for name in names)
 
 
-def _member(kind: type[EnumT], name: str, what: str) -> EnumT:
+def member(kind: type[EnumT], name: str, what: str) -> EnumT:
+    """The enum member that `name` is or names; raises `ConfigError` with the nearest one when there is none."""
     try:
         return kind(name)
     except ValueError:
-        close = get_close_matches(str(name).lower(), [str(member) for member in kind], n=1)
+        close = get_close_matches(str(name).lower(), [str(value) for value in kind], n=1)
         hint = f"Did you mean {close[0]}?" if close else f"There are: {', '.join(kind)}"
         raise ConfigError(f"{what}={name!r} is not a {kind.__name__}", hint=hint) from None
 
