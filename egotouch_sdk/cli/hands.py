@@ -12,7 +12,7 @@ from egotouch_sdk.cli.options import (
     add_pipeline_options,
     add_source_options,
     config_from,
-    open_from,
+    open_frames_from,
 )
 from egotouch_sdk.cli.output import Progress, print_json
 
@@ -58,7 +58,7 @@ def hands(options: argparse.Namespace) -> int:
     from egotouch_sdk.hands.tracker import HandTracker
 
     config = config_from(options).hands
-    with open_from(options) as source:
+    with open_frames_from(options) as source:
         tracker = HandTracker(**config.model_dump())
         progress = Progress(source.frame_count, always=options.progress)
         frames = seen = 0

@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Any
 from egotouch_sdk.errors import ConfigError
 
 if TYPE_CHECKING:
+    from egotouch_sdk.cli.play import Engine
     from egotouch_sdk.config import TouchConfig
-    from egotouch_sdk.sources import FrameSource
+    from egotouch_sdk.sources import FrameSource, ObservationSource
 
 _CONFIG_HINT = 'Write it like {"hands": {"max_hands": 2}}'
 
@@ -32,7 +33,7 @@ def add_command(subparsers: Subparsers, name: str, summary: str, examples: str) 
 
 def add_source_options(parser: argparse.ArgumentParser) -> None:
     """SOURCE, --fps and --size."""
-    parser.add_argument("source", metavar="SOURCE", help="camera index (0), URL, video file, image, or folder of images")
+    parser.add_argument("source", metavar="SOURCE", help="camera index (0), URL, video file, image, folder of images, or simulator script")
     parser.add_argument("--fps", type=positive_float, help="rate of a folder (default 30), in place of a video's own, or asked of a camera")
     parser.add_argument("--size", type=size_px, metavar="WxH", help="image size to ask of a camera, for example 1280x720")
 
@@ -41,6 +42,11 @@ def add_pipeline_options(parser: argparse.ArgumentParser) -> None:
     """--mirrored, --threads and --config."""
     parser.add_argument("--mirrored", action="store_true", help="the picture is a mirror image, as from a selfie camera")
     add_threads_option(parser)
+    add_config_option(parser)
+
+
+def add_config_option(parser: argparse.ArgumentParser) -> None:
+    """--config."""
     parser.add_argument("--config", type=Path, metavar="FILE", help="settings as JSON, with the sections and names of TouchConfig")
 
 
@@ -88,12 +94,40 @@ def size_px(text: str) -> tuple[int, int]:
     return positive_int(width), positive_int(height)
 
 
-def open_from(options: argparse.Namespace) -> FrameSource:
+def open_from(options: argparse.Namespace) -> FrameSource | ObservationSource:
     """The source that the command line names."""
     from egotouch_sdk.sources import open_source
 
+    return open_source(options.source, **_asked_of_source(options))
+
+
+def open_frames_from(options: argparse.Namespace) -> FrameSource:
+    """The source of camera frames that the command line names; `SourceError` for one without pictures."""
+    from egotouch_sdk.sources import open_frames
+
+    return open_frames(options.source, **_asked_of_source(options))
+
+
+def _asked_of_source(options: argparse.Namespace) -> dict[str, Any]:
     width_px, height_px = options.size or (None, None)
-    return open_source(options.source, fps=options.fps, width_px=width_px, height_px=height_px)
+    return {"fps": options.fps, "width_px": width_px, "height_px": height_px}
+
+
+def engine_from(options: argparse.Namespace, source: FrameSource | ObservationSource) -> Engine[Any]:
+    """What turns the items of `source` into events: a whole pipeline for pictures, the event engine for observations.
+
+    Observations that carry their own settings are replayed with them unless the command line has a config file.
+    """
+    from egotouch_sdk.sources import ObservationSource
+
+    if isinstance(source, ObservationSource):
+        from egotouch_sdk.engine import THRESHOLDS, EventEngine
+
+        own = None if options.config else source.config
+        return EventEngine(own or config_from(options), source.thresholds or THRESHOLDS)
+    from egotouch_sdk.pipeline import TouchPipeline
+
+    return TouchPipeline(config_from(options))
 
 
 def config_from(options: argparse.Namespace) -> TouchConfig:

@@ -1,4 +1,4 @@
-"""Running a source through the pipeline, frame by frame, until it ends or the user stops it."""
+"""Running a source through the pipeline or the event engine, frame by frame, until it ends or the user stops it."""
 
 from __future__ import annotations
 
@@ -6,19 +6,38 @@ import signal
 import threading
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol, TypeVar
 
 from egotouch_sdk.clock import Pacer, now_ns
 from egotouch_sdk.errors import SourceError
 from egotouch_sdk.touch_event import CancelReason, TouchEvent
 
 if TYPE_CHECKING:
-    from egotouch_sdk.frame import Frame
     from egotouch_sdk.frame_result import FrameResult
-    from egotouch_sdk.pipeline import TouchPipeline
 
-FrameSink = Callable[["Frame", "FrameResult"], None]
 EventSink = Callable[[TouchEvent], None]
+
+
+class Timed(Protocol):
+    """A camera frame, or what was observed in one."""
+
+    @property
+    def timestamp_ns(self) -> int:
+        """Capture time."""
+
+
+Item = TypeVar("Item", bound=Timed)
+Taken = TypeVar("Taken", bound=Timed, contravariant=True)
+
+
+class Engine(Protocol[Taken]):
+    """What turns a source's items into events: a `TouchPipeline` for frames, an `EventEngine` for observations."""
+
+    def process(self, item: Taken, /) -> FrameResult:
+        """Take the next item."""
+
+    def finish(self, timestamp_ns: int, reason: CancelReason = ...) -> tuple[TouchEvent, ...]:
+        """End every touch."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,9 +56,14 @@ class Run:
 
 
 def play(
-    frames: Iterable[Frame], pipeline: TouchPipeline, on_event: EventSink, on_frame: FrameSink | None = None, *, paced: bool = False
+    items: Iterable[Item],
+    engine: Engine[Item],
+    on_event: EventSink,
+    on_frame: Callable[[Item, FrameResult], None] | None = None,
+    *,
+    paced: bool = False,
 ) -> Run:
-    """Process every frame; touches still open at the end are cancelled, and their events handed on, whatever the reason.
+    """Process every frame or observation; touches still open at the end are cancelled, and their events handed on, whatever the reason.
 
     Ctrl-C ends the run cleanly. A source that fails cancels with `SOURCE_STALLED` before its `SourceError` goes on.
     `paced` holds each frame back until its presentation time.
@@ -51,16 +75,16 @@ def play(
     interrupted = False
     reason = CancelReason.SOURCE_ENDED
     try:
-        for frame in frames:
+        for item in items:
             if pacer:
-                pacer.wait(frame.timestamp_ns)
-            last_ns = frame.timestamp_ns
-            result = pipeline.process(frame)
+                pacer.wait(item.timestamp_ns)
+            last_ns = item.timestamp_ns
+            result = engine.process(item)
             count += 1
             for event in result.events:
                 on_event(event)
             if on_frame:
-                on_frame(frame, result)
+                on_frame(item, result)
     except KeyboardInterrupt:
         ignore_interrupts()
         interrupted = True
@@ -68,7 +92,7 @@ def play(
         reason = CancelReason.SOURCE_STALLED
         raise
     finally:
-        for event in pipeline.finish(last_ns, reason):
+        for event in engine.finish(last_ns, reason):
             on_event(event)
     return Run(count, last_ns, (now_ns() - start_ns) / 1e9, interrupted)
 

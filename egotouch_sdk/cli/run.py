@@ -13,11 +13,12 @@ from egotouch_sdk.cli.options import (
     add_pipeline_options,
     add_source_options,
     add_view_options,
-    config_from,
+    engine_from,
+    open_frames_from,
     open_from,
 )
 from egotouch_sdk.cli.output import EventPrinter, Progress
-from egotouch_sdk.cli.play import play
+from egotouch_sdk.cli.play import Run, play
 from egotouch_sdk.cli.views import Views
 
 if TYPE_CHECKING:
@@ -29,6 +30,7 @@ EXAMPLES = """\
   egotouch run clip.mp4                          one line per event
   egotouch run clip.mp4 --json > events.jsonl    one JSON object per event
   egotouch run clip.mp4 --save annotated.mp4     a video with hands, touch state and force
+  egotouch run taps.yaml                         a simulator script, without a camera
   egotouch run http://192.168.1.7:8080/video     a phone or headset that streams its camera
 """
 #: What fits into the view's headline.
@@ -37,7 +39,7 @@ TITLE_CHARACTERS = 20
 
 def add_parser(subparsers: Subparsers) -> None:
     """Add `run` to the command line."""
-    parser = add_command(subparsers, "run", "touch events from a camera, video or folder of images", EXAMPLES)
+    parser = add_command(subparsers, "run", "touch events from a camera, video, folder of images or script", EXAMPLES)
     add_source_options(parser)
     add_pipeline_options(parser)
     parser.add_argument("--json", action="store_true", help="one JSON object per event on stdout")
@@ -50,13 +52,29 @@ def add_parser(subparsers: Subparsers) -> None:
 def run(options: argparse.Namespace) -> int:
     """Play the source and print its events."""
     from egotouch_sdk.cli.main import EXIT_INTERRUPTED
-    from egotouch_sdk.pipeline import TouchPipeline
 
-    config = config_from(options)
+    outcome = _run_with_views(options) if options.show or options.save else _run(options)
+    summary = f"{outcome.frames} frames in {outcome.wall_s:.1f} s ({outcome.fps:.1f} per second)"
+    sys.stderr.write(f"{summary}{', interrupted' if outcome.interrupted else ''}\n")
+    if options.save:
+        sys.stderr.write(f"saved {options.save}\n")
+    return EXIT_INTERRUPTED if outcome.interrupted else 0
+
+
+def _run(options: argparse.Namespace) -> Run:
+    """Any source, as fast as it goes."""
     with open_from(options) as source:
-        pipeline = TouchPipeline(config)
         progress = Progress(source.frame_count, always=options.progress)
-        printer = EventPrinter(options.json, progress)
+        outcome = play(source, engine_from(options, source), EventPrinter(options.json, progress), lambda *_: progress.step())
+        progress.clear()
+    return outcome
+
+
+def _run_with_views(options: argparse.Namespace) -> Run:
+    """A source with pictures, seen in the browser or saved as a video."""
+    with open_frames_from(options) as source:
+        engine = engine_from(options, source)
+        progress = Progress(source.frame_count, always=options.progress)
         title = f"egotouch {Path(options.source).name}"[:TITLE_CHARACTERS]
         with Views(title, show=options.show, save=options.save, fps=source.fps, port=options.port) as views:
             views.show_in_browser()
@@ -65,10 +83,7 @@ def run(options: argparse.Namespace) -> int:
                 views(frame, result)
                 progress.step()
 
-            outcome = play(source, pipeline, printer, on_frame, paced=options.show and not source.is_live)
+            printer = EventPrinter(options.json, progress)
+            outcome = play(source, engine, printer, on_frame, paced=options.show and not source.is_live)
         progress.clear()
-    summary = f"{outcome.frames} frames in {outcome.wall_s:.1f} s ({outcome.fps:.1f} per second)"
-    sys.stderr.write(f"{summary}{', interrupted' if outcome.interrupted else ''}\n")
-    if options.save:
-        sys.stderr.write(f"saved {options.save}\n")
-    return EXIT_INTERRUPTED if outcome.interrupted else 0
+    return outcome

@@ -65,13 +65,13 @@ def evaluate_false_touches(options: argparse.Namespace) -> int:
     """Run clips through the whole pipeline and print false touches per minute."""
     from egotouch_sdk.evaluation.false_touches import FalseTouches, count_false_touches
     from egotouch_sdk.pipeline import TouchPipeline
-    from egotouch_sdk.sources import open_source
+    from egotouch_sdk.sources import open_frames
     from egotouch_sdk.touch import TouchModel
 
     config, model = config_from(options), TouchModel(options.model, options.threads or 1)
     total = FalseTouches(0, 0.0, 0, 0, 0, 0)
     for spec in options.videos:
-        with open_source(spec) as source:
+        with open_frames(spec) as source:
             counted = count_false_touches(source, TouchPipeline(config, touch=model))
         total = total + counted
         _print_false_touches(spec, counted, options.json)

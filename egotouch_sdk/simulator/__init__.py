@@ -7,6 +7,16 @@ from __future__ import annotations
 
 from egotouch_sdk.simulator.observe import observe
 from egotouch_sdk.simulator.scene import SimulatedFinger, SimulatedScene, SimulatedView, place_at, surface_at
-from egotouch_sdk.simulator.script_source import ScriptSource
+from egotouch_sdk.simulator.script_source import ScriptSource, shipped_script, shipped_scripts
 
-__all__ = ["ScriptSource", "SimulatedFinger", "SimulatedScene", "SimulatedView", "observe", "place_at", "surface_at"]
+__all__ = [
+    "ScriptSource",
+    "SimulatedFinger",
+    "SimulatedScene",
+    "SimulatedView",
+    "observe",
+    "place_at",
+    "shipped_script",
+    "shipped_scripts",
+    "surface_at",
+]

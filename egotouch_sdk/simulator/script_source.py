@@ -9,6 +9,7 @@ from typing import Self
 
 from egotouch_sdk.clock import Pacer
 from egotouch_sdk.config import TouchConfig
+from egotouch_sdk.errors import SourceError
 from egotouch_sdk.frame_observation import FrameObservation
 from egotouch_sdk.simulator.observe import observe
 from egotouch_sdk.simulator.scene import SimulatedView
@@ -17,6 +18,19 @@ from egotouch_sdk.simulator.timeline import Timeline
 from egotouch_sdk.state import Thresholds
 
 _VIEW = SimulatedView()
+_SHIPPED = Path(__file__).parents[1] / "assets" / "scripts"
+
+
+def shipped_scripts() -> tuple[str, ...]:
+    """Names of the scripts that come with the package."""
+    return tuple(sorted(path.stem for path in _SHIPPED.glob("*.yaml")))
+
+
+def shipped_script(name: str) -> Path:
+    """The file of a script that comes with the package; raises `SourceError` for one that does not."""
+    if name not in shipped_scripts():
+        raise SourceError(f"no such script: {name}", hint=f"Give a .yaml file or one of {', '.join(shipped_scripts())}")
+    return _SHIPPED / f"{name}.yaml"
 
 
 class ScriptSource:

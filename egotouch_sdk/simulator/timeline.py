@@ -28,6 +28,8 @@ LINGER_MS: Final = 1500.0
 REST_MM: Final = 15.0
 LIFT_MS: Final = 80.0
 RAMP_MS: Final = 60.0
+#: Share of the full force with which a touch begins and ends.
+FIRST_FORCE: Final = 0.2
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,7 +87,7 @@ class Stroke:
     def pressed_n(self, time_ms: float) -> float:
         """The force on the skin: it rises after a touch begins and falls before it ends."""
         edge_ms = max((min(time_ms - start, end - time_ms) for start, end in self._spans()), default=0.0)
-        return self.force_n * minimum_jerk(edge_ms / RAMP_MS)
+        return self.force_n * (FIRST_FORCE + (1.0 - FIRST_FORCE) * minimum_jerk(edge_ms / RAMP_MS))
 
     def _spans(self) -> list[tuple[float, float]]:
         return [(self.start_ms + start, self.start_ms + end) for start, end in self.act.contacts_ms]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from egotouch_sdk.sources.base import FrameSource, ObservationSource, SourceWarning
 from egotouch_sdk.sources.camera import CameraSource
 from egotouch_sdk.sources.image_folder import ImageFolderSource, read_image
-from egotouch_sdk.sources.opener import open_source
+from egotouch_sdk.sources.opener import open_frames, open_source
 from egotouch_sdk.sources.push import PushSource, WhenFull
 from egotouch_sdk.sources.video_file import VideoFileSource
 
@@ -18,6 +18,7 @@ __all__ = [
     "SourceWarning",
     "VideoFileSource",
     "WhenFull",
+    "open_frames",
     "open_source",
     "read_image",
 ]

@@ -5,20 +5,26 @@ from __future__ import annotations
 from pathlib import Path
 
 from egotouch_sdk.errors import SourceError
-from egotouch_sdk.sources.base import FrameSource
+from egotouch_sdk.sources.base import FrameSource, ObservationSource
 from egotouch_sdk.sources.camera import CameraSource
 from egotouch_sdk.sources.image_folder import IMAGE_SUFFIXES, ImageFolderSource
 from egotouch_sdk.sources.presentation import FALLBACK_FPS
 from egotouch_sdk.sources.video_file import VideoFileSource
 
+#: Files that are simulator scripts.
+SCRIPT_SUFFIXES = frozenset({".yaml", ".yml"})
+
+_HINT = "Give a camera index (0), a URL, a video file, an image, a folder of images or a simulator script (.yaml)"
+
 
 def open_source(
     spec: int | str | Path, *, fps: float | None = None, width_px: int | None = None, height_px: int | None = None
-) -> FrameSource:
+) -> FrameSource | ObservationSource:
     """Open what `spec` names: a camera index (`0`), a device (`/dev/video0`), a URL, a video, an image or a folder of images.
 
-    `fps` is the rate of a folder (default 30), replaces the times of a video, and is asked of a camera; `width_px` and
-    `height_px` are asked of a camera and ignored elsewhere. Raises `SourceError` when there is nothing to read.
+    A simulator script (`.yaml`, `.yml`) opens as a source of observations.
+    `fps` is the rate of a folder (default 30), replaces the times of a video and the rate of a script, and is asked of a camera;
+    `width_px` and `height_px` are asked of a camera and ignored elsewhere. Raises `SourceError` when there is nothing to read.
     """
     text = str(spec)
     if text.isdigit():
@@ -28,6 +34,21 @@ def open_source(
         return CameraSource(text, width_px=width_px, height_px=height_px, fps=fps)
     if path.is_dir() or (path.is_file() and path.suffix.lower() in IMAGE_SUFFIXES):
         return ImageFolderSource(path, fps=fps or FALLBACK_FPS)
+    if path.is_file() and path.suffix.lower() in SCRIPT_SUFFIXES:
+        from egotouch_sdk.simulator import ScriptSource
+
+        return ScriptSource(path, fps=fps)
     if path.is_file():
         return VideoFileSource(path, fps=fps)
-    raise SourceError(f"no such source: {text}", hint="Give a camera index (0), a URL, a video file, an image or a folder of images")
+    raise SourceError(f"no such source: {text}", hint=_HINT)
+
+
+def open_frames(
+    spec: int | str | Path, *, fps: float | None = None, width_px: int | None = None, height_px: int | None = None
+) -> FrameSource:
+    """As `open_source`, for what needs pictures; raises `SourceError` for a source of observations."""
+    source = open_source(spec, fps=fps, width_px=width_px, height_px=height_px)
+    if isinstance(source, ObservationSource):
+        source.close()
+        raise SourceError(f"{spec} has no pictures", hint="Give a camera, a video, an image or a folder of images")
+    return source
