@@ -206,12 +206,26 @@ class Hello(_message.Message):
     def __init__(self, client: _Optional[str] = ..., version: _Optional[str] = ..., protocol_minor: _Optional[int] = ..., token: _Optional[str] = ..., pairing_code: _Optional[str] = ..., resume: _Optional[_Union[Resume, _Mapping]] = ..., features: _Optional[_Iterable[str]] = ..., subscribe: _Optional[_Union[Subscribe, _Mapping]] = ...) -> None: ...
 
 class Resume(_message.Message):
-    __slots__ = ("epoch", "offset")
+    __slots__ = ("epoch", "offset", "held")
     EPOCH_FIELD_NUMBER: _ClassVar[int]
     OFFSET_FIELD_NUMBER: _ClassVar[int]
+    HELD_FIELD_NUMBER: _ClassVar[int]
     epoch: int
     offset: int
-    def __init__(self, epoch: _Optional[int] = ..., offset: _Optional[int] = ...) -> None: ...
+    held: _containers.RepeatedCompositeFieldContainer[HeldPointer]
+    def __init__(self, epoch: _Optional[int] = ..., offset: _Optional[int] = ..., held: _Optional[_Iterable[_Union[HeldPointer, _Mapping]]] = ...) -> None: ...
+
+class HeldPointer(_message.Message):
+    __slots__ = ("pointer_id", "contact_id", "dragging", "pressing")
+    POINTER_ID_FIELD_NUMBER: _ClassVar[int]
+    CONTACT_ID_FIELD_NUMBER: _ClassVar[int]
+    DRAGGING_FIELD_NUMBER: _ClassVar[int]
+    PRESSING_FIELD_NUMBER: _ClassVar[int]
+    pointer_id: int
+    contact_id: int
+    dragging: bool
+    pressing: bool
+    def __init__(self, pointer_id: _Optional[int] = ..., contact_id: _Optional[int] = ..., dragging: bool = ..., pressing: bool = ...) -> None: ...
 
 class Subscribe(_message.Message):
     __slots__ = ("types", "fingers", "hands", "surfaces", "max_rate_hz", "latest_only", "status", "late_edges", "landmarks")
