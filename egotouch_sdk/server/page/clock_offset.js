@@ -1,0 +1,34 @@
+// The server's clock as seen from this page: NTP's four timestamps, the probe with the shortest round trip counts.
+
+const KEPT = 16;
+
+export class ClockOffset {
+  #probes = [];
+
+  /** Half the round trip of the best probe in milliseconds, the bound of the error; null before the first reply. */
+  get uncertaintyMs() {
+    return this.#best ? this.#best.roundTripMs / 2 : null;
+  }
+
+  /** Take one reply, received at `nowMs` of this page's clock. */
+  add({ clientSendMs, serverReceiveMs, serverSendMs }, nowMs) {
+    const roundTripMs = nowMs - clientSendMs - (serverSendMs - serverReceiveMs);
+    if (!(roundTripMs >= 0)) return;
+    this.#probes.push({ roundTripMs, offsetMs: (serverReceiveMs - clientSendMs + serverSendMs - nowMs) / 2 });
+    if (this.#probes.length > KEPT) this.#probes.shift();
+  }
+
+  /** This page's time on the server's clock; null before the first reply. */
+  toServerMs(nowMs) {
+    return this.#best ? nowMs + this.#best.offsetMs : null;
+  }
+
+  /** Forget everything: another run of the server has another clock. */
+  reset() {
+    this.#probes = [];
+  }
+
+  get #best() {
+    return this.#probes.reduce((best, probe) => (!best || probe.roundTripMs < best.roundTripMs ? probe : best), null);
+  }
+}

@@ -1,0 +1,59 @@
+// The landmarks of the hands in view, in the camera's own picture; the picture itself only where the server runs a debug view.
+
+const BONES = [[0, 1, 2, 3, 4], [0, 5, 6, 7, 8], [5, 9, 10, 11, 12], [9, 13, 14, 15, 16], [13, 17, 18, 19, 20], [0, 17]];
+const COLOURS = { LEFT: "#f0b429", RIGHT: "#5ac8fa", UNSPECIFIED: "#93a4b8" };
+const DEBUG_VIEW = "debug_view";
+const VIDEO_PATH = "debug.jpg";
+const VIDEO_EVERY_MS = 100;
+
+/** Show hands (and debug video, when the server announces that feature) as they come in. */
+export function showHands(connection, root = document) {
+  const [panel, canvas, note, video, mark] = ["camera", "hands", "camera-note", "video", "video-mark"].map((id) => root.getElementById(id));
+  let last = null;
+  connection.addEventListener("hands", ({ detail }) => {
+    last = detail;
+    panel.hidden = false;
+    note.textContent = `${detail.hands.length === 1 ? "1 hand" : `${detail.hands.length} hands`}, ${detail.widthPx} × ${detail.heightPx} px`;
+    requestAnimationFrame(() => paint(canvas, last));
+  });
+  connection.addEventListener("welcome", ({ detail }) => {
+    const shown = detail.features.includes(DEBUG_VIEW);
+    video.hidden = mark.hidden = !shown;
+    if (!shown) return;
+    panel.hidden = false;
+    playVideo(video, connection);
+  });
+}
+
+/** One JPEG after the other: a slow page asks for fewer, and nothing queues. */
+function playVideo(video, connection) {
+  const next = () => {
+    if (connection.state === "live") video.src = `${VIDEO_PATH}?at=${Math.round(performance.now())}`;
+  };
+  video.onload = video.onerror = () => setTimeout(next, VIDEO_EVERY_MS);
+  next();
+}
+
+function paint(canvas, { widthPx, heightPx, hands }) {
+  const ratio = Math.min(devicePixelRatio || 1, 2);
+  canvas.width = Math.round(canvas.clientWidth * ratio);
+  canvas.height = Math.round((canvas.clientWidth * ratio * heightPx) / widthPx);
+  const context = canvas.getContext("2d");
+  const scale = canvas.width / widthPx;
+  context.lineWidth = 2 * ratio;
+  context.lineCap = context.lineJoin = "round";
+  for (const { handedness, landmarksPx } of hands) {
+    const at = (joint) => [landmarksPx[3 * joint] * scale, landmarksPx[3 * joint + 1] * scale];
+    context.strokeStyle = context.fillStyle = COLOURS[handedness];
+    for (const bone of BONES) {
+      context.beginPath();
+      for (const joint of bone) context.lineTo(...at(joint));
+      context.stroke();
+    }
+    for (let joint = 0; joint < landmarksPx.length / 3; joint += 1) {
+      context.beginPath();
+      context.arc(...at(joint), 2.5 * ratio, 0, 2 * Math.PI);
+      context.fill();
+    }
+  }
+}

@@ -1,0 +1,106 @@
+// The live view: everything the server tells, drawn. The page only listens.
+
+import { access, askWhenWanted, keepToken } from "./access.js";
+import { Connection, sameOrigin } from "./connection.js";
+import { showCounters } from "./counters.js";
+import { EventLog } from "./event_log.js";
+import { showHands } from "./hands_panel.js";
+import { LimbView } from "./limb_view.js";
+import { Plot } from "./plot.js";
+import { showStatus } from "./status_bar.js";
+import { TouchMarks } from "./touch_marks.js";
+import { FINGER_COLOURS, FINGERS, hostOf, words } from "./vocabulary.js";
+
+const SIMULATOR = "simulator";
+const byId = (id) => document.getElementById(id);
+
+const connection = new Connection({
+  url: sameOrigin(),
+  client: "live view",
+  subscribe: { status: true, landmarks: true },
+  access,
+  keepToken,
+});
+const marks = new TouchMarks();
+const paint = (view, context) => marks.paint(view, context, performance.now());
+const views = [new LimbView(byId("palm"), "palm", paint), new LimbView(byId("back"), "back", paint)];
+const log = new EventLog(byId("log"), byId("filters"));
+const force = new Plot(byId("force"), { top: 2, unit: "N" });
+const latency = new Plot(byId("latency"), { top: 20, unit: "ms", dots: true });
+let follow = true;
+
+connection.addEventListener("events", ({ detail: { events, local } }) => {
+  const now = performance.now();
+  log.add(events, local);
+  for (const event of events) {
+    if (event.late) continue;
+    marks.apply(event, now);
+    if (event.type === "DOWN" || event.type === "HOVER_ENTER") showHost(hostOf(event), true);
+    if (event.type === "DOWN" || event.type === "MOVE") force.add(event.pointerId, FINGER_COLOURS[event.finger], now, event.forceN);
+    if (event.type === "UP" || event.type === "CANCEL") force.add(event.pointerId, FINGER_COLOURS[event.finger], now, null);
+    if (event.type === "DOWN" || event.type === "MOVE") byId("force-now").textContent = `${event.forceN.toFixed(2)} N`;
+    if (event.type === "UP" || event.type === "CANCEL") byId("force-now").textContent = "";
+  }
+});
+connection.addEventListener("snapshot", ({ detail }) => marks.adopt(detail));
+connection.addEventListener("timing", ({ detail }) => {
+  const now = performance.now();
+  latency.add("sent", "#4ade9c", now, detail.sentMs);
+  latency.add("age", "#5ac8fa", now, detail.ageMs);
+});
+connection.addEventListener("welcome", ({ detail: { settings, features } }) => {
+  if (settings.forceEnterN) force.level = { value: settings.forceEnterN, name: "onForce" };
+  byId("to-simulator").hidden = !features.includes(SIMULATOR);
+});
+
+function showHost(host, fromEvent) {
+  if (fromEvent && !follow) return;
+  for (const view of views) view.host = host;
+  byId("host-name").textContent = `${host === "LEFT" ? "Left" : "Right"} arm`;
+}
+
+byId("host").addEventListener("click", ({ target }) => {
+  const host = target.dataset.host;
+  if (!host) return;
+  for (const button of byId("host").children) button.setAttribute("aria-pressed", String(button === target));
+  follow = host === "AUTO";
+  if (!follow) showHost(host, false);
+});
+byId("clear").addEventListener("click", () => {
+  log.clear();
+  force.clear();
+  latency.clear();
+});
+for (const finger of FINGERS) {
+  const item = document.createElement("li");
+  item.textContent = words(finger);
+  item.style.setProperty("--chip", FINGER_COLOURS[finger]);
+  byId("legend").append(item);
+}
+
+function percentiles() {
+  const values = latency.values();
+  if (!values.length) return "";
+  const at = (share) => values[Math.min(values.length - 1, Math.floor(share * values.length))].toFixed(1);
+  return `p50 ${at(0.5)} · p95 ${at(0.95)} ms`;
+}
+
+let idle = false;
+function frame(now) {
+  if (marks.busy || !idle) for (const view of views) view.draw();
+  idle = !marks.busy;
+  force.draw(now);
+  latency.draw(now);
+  requestAnimationFrame(frame);
+}
+
+setInterval(() => (byId("latency-now").textContent = percentiles()), 500);
+showStatus(connection);
+showCounters(connection, byId("counters"));
+showHands(connection);
+askWhenWanted(connection, byId("access"));
+connection.start();
+requestAnimationFrame(frame);
+
+/** For the browser's console and for tests. */
+globalThis.egotouch = { connection, views, marks };

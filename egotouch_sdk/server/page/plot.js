@@ -1,0 +1,123 @@
+// A value over the last seconds, one line per series, on a canvas.
+
+export class Plot {
+  #canvas;
+  #options;
+  #series = new Map(); // key -> {colour, points: [{at, value}]}
+  #level = null;
+
+  /** `windowMs` is the span shown, `top` the least upper end of the axis, `unit` its unit; `dots` draws points instead of lines. */
+  constructor(canvas, options) {
+    this.#canvas = canvas;
+    this.#options = { windowMs: 8000, dots: false, ...options };
+    new ResizeObserver(() => this.#resize()).observe(canvas);
+    this.#resize();
+  }
+
+  /** A dashed line at a value, with its name; null removes it. */
+  set level(level) {
+    this.#level = level;
+  }
+
+  /** Add a value; null breaks the line. */
+  add(key, colour, at, value) {
+    const series = this.#series.get(key) ?? { colour, points: [] };
+    series.points.push({ at, value });
+    this.#series.set(key, series);
+  }
+
+  /** Forget all values. */
+  clear() {
+    this.#series.clear();
+  }
+
+  /** All values of the window, sorted. */
+  values() {
+    return [...this.#series.values()].flatMap(({ points }) => points.map((point) => point.value)).filter((value) => value !== null)
+      .sort((a, b) => a - b);
+  }
+
+  draw(now) {
+    const { windowMs, top, unit } = this.#options;
+    for (const [key, series] of this.#series) {
+      while (series.points.length && now - series.points[0].at > windowMs) series.points.shift();
+      if (!series.points.length) this.#series.delete(key);
+    }
+    const context = this.#canvas.getContext("2d");
+    const [width, height, left, bottom] = [this.#canvas.clientWidth, this.#canvas.clientHeight, 38, 18];
+    const highest = Math.max(top, ...this.values().slice(-1));
+    const x = (at) => width - ((now - at) / windowMs) * (width - left);
+    const y = (value) => 6 + (1 - value / highest) * (height - bottom - 6);
+    context.clearRect(0, 0, width, height);
+    this.#axes(context, { width, height, left, bottom, highest, y, unit, windowMs });
+    context.save();
+    context.beginPath();
+    context.rect(left, 0, width - left, height - bottom + 2);
+    context.clip();
+    for (const series of this.#series.values()) this.#line(context, series, x, y);
+    context.restore();
+  }
+
+  #line(context, { colour, points }, x, y) {
+    context.strokeStyle = context.fillStyle = colour;
+    context.lineWidth = 2;
+    context.lineJoin = "round";
+    context.beginPath();
+    let pen = false;
+    for (const { at, value } of points) {
+      if (value === null) pen = false;
+      else if (this.#options.dots) context.fillRect(x(at) - 1.25, y(value) - 1.25, 2.5, 2.5);
+      else if (pen) context.lineTo(x(at), y(value));
+      else context.moveTo(x(at), y(value));
+      pen = value !== null;
+    }
+    context.stroke();
+  }
+
+  #axes(context, { width, height, left, bottom, highest, y, unit, windowMs }) {
+    context.font = "12px system-ui, sans-serif";
+    context.textBaseline = "middle";
+    context.textAlign = "right";
+    context.fillStyle = "#93a4b8";
+    context.strokeStyle = "rgb(147 164 184 / 0.18)";
+    context.lineWidth = 1;
+    const step = niceStep(highest / 3);
+    for (let value = 0; value <= highest; value += step) {
+      context.beginPath();
+      context.moveTo(left, y(value));
+      context.lineTo(width, y(value));
+      context.stroke();
+      context.fillText(`${+value.toFixed(2)}`, left - 6, y(value));
+    }
+    context.textBaseline = "alphabetic";
+    context.textAlign = "left";
+    context.fillText(unit, 2, height - 4);
+    context.fillText(`${windowMs / 1000} s ago`, left, height - 4);
+    context.textAlign = "right";
+    context.fillText("now", width - 2, height - 4);
+    if (!this.#level || this.#level.value > highest) return;
+    context.setLineDash([4, 4]);
+    context.strokeStyle = "rgb(211 164 255 / 0.7)";
+    context.beginPath();
+    context.moveTo(left, y(this.#level.value));
+    context.lineTo(width, y(this.#level.value));
+    context.stroke();
+    context.setLineDash([]);
+    context.fillStyle = "#d3a4ff";
+    context.textAlign = "left";
+    context.fillText(this.#level.name, left + 4, y(this.#level.value) - 4);
+  }
+
+  #resize() {
+    const ratio = Math.min(devicePixelRatio || 1, 2);
+    this.#canvas.width = Math.round(this.#canvas.clientWidth * ratio);
+    this.#canvas.height = Math.round(this.#canvas.clientHeight * ratio);
+    this.#canvas.getContext("2d").setTransform(ratio, 0, 0, ratio, 0, 0);
+  }
+}
+
+/** The smallest of 1, 2, 5 times a power of ten that is not below `value`. */
+function niceStep(value) {
+  const power = 10 ** Math.floor(Math.log10(value));
+  return [1, 2, 5, 10].map((factor) => factor * power).find((step) => step >= value * 0.999);
+}

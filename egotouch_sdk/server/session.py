@@ -1,0 +1,340 @@
+"""One client's side of the protocol: its messages in, the server's messages out. No sockets, no clock."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable
+from enum import StrEnum
+from math import ceil
+
+from egotouch_sdk.errors import ProtocolError
+from egotouch_sdk.server.access import Access, OpenAccess
+from egotouch_sdk.server.batch import Batch
+from egotouch_sdk.server.close_code import Close, CloseCode
+from egotouch_sdk.server.journal import Journal
+from egotouch_sdk.server.limits import MILLISECOND_NS, SECOND_NS, Limits
+from egotouch_sdk.server.outbox import Outbox
+from egotouch_sdk.server.pointer_view import Pointer, PointerView, Run
+from egotouch_sdk.server.rate import TokenBucket
+from egotouch_sdk.server.subprotocol import Subprotocol
+from egotouch_sdk.server.subscription import Subscription
+from egotouch_sdk.server.welcome import PROTOCOL_MINOR, ServerInfo
+from egotouch_sdk.touch_event import TouchEvent
+from egotouch_sdk.wire import event_to_proto
+from egotouch_sdk.wire.gen import egotouch_pb2 as pb
+
+#: A message that is older when it is sent is made anew, so that `sent_ns` is true to this.
+SHARED_NS = 2 * MILLISECOND_NS
+#: More pointers than two hands have; a Resume that names more is malformed.
+MAX_HELD = 64
+
+#: Takes what a client pushes: pictures, hands, or a simulator's fingers.
+PushSink = Callable[[pb.ClientFrame | pb.ClientHands | pb.SimulatedPointers], None]
+
+
+class State(StrEnum):
+    """Where a connection is."""
+
+    AWAITING_HELLO = "awaiting_hello"
+    LIVE = "live"
+    CLOSED = "closed"
+
+
+class Session:
+    """One connection, from its first byte to its close code.
+
+    `receive` takes the client's messages, `offer` the server's batches, `tick` lets time pass; `next_message` gives what to send next
+    and is called whenever the transport has room. Once `close` is set, nothing more is sent and nothing more is taken.
+    `push` takes what a client pushes as the server's source; without it such messages are answered by a Warning.
+    """
+
+    def __init__(
+        self,
+        journal: Journal,
+        subprotocol: Subprotocol,
+        now_ns: int,
+        *,
+        access: Access | None = None,
+        limits: Limits | None = None,
+        info: ServerInfo | None = None,
+        push: PushSink | None = None,
+    ) -> None:
+        self.state = State.AWAITING_HELLO
+        self.close: Close | None = None
+        self.client = ""
+        self.subscription = Subscription()
+        self._journal = journal
+        self._subprotocol = subprotocol
+        self._access = access or OpenAccess()
+        self._limits = limits or Limits()
+        self._info = info or ServerInfo()
+        self._push = push
+        self._commands = TokenBucket(self._limits.commands_per_s, self._limits.command_burst, now_ns)
+        self._view = PointerView(self.subscription)
+        self._outbox = Outbox(self._limits)
+        self._control: deque[pb.ServerMessage] = deque()
+        self._runs: deque[tuple[Batch, Run]] = deque()
+        self._offset = 0
+        self._hello_due_ns = now_ns + self._limits.hello_timeout_ns
+        self._sent_ns = now_ns
+        self._progress_ns = now_ns
+        self._next_stream_ns = now_ns
+
+    @property
+    def merged(self) -> int:
+        """Batches that became part of a later one because the client was slow or wants fewer."""
+        return self._outbox.merged
+
+    @property
+    def has_waiting(self) -> bool:
+        """True when something waits to be sent."""
+        return bool(self._control or self._runs or len(self._outbox))
+
+    # ---------------------------------------------------------------------------------------------------------- client to server
+
+    def receive(self, data: bytes | str, now_ns: int) -> None:
+        """Take one WebSocket message."""
+        if self.close:
+            return
+        if len(data) > self._limits.max_message_bytes:
+            self.end(CloseCode.TOO_LARGE, f"messages have at most {self._limits.max_message_bytes} bytes")
+            return
+        try:
+            message = self._subprotocol.decode(data)
+            self._handle(message, now_ns)
+        except ProtocolError as error:
+            self.end(CloseCode.MALFORMED, str(error))
+
+    def _handle(self, message: pb.ClientMessage, now_ns: int) -> None:
+        kind = message.WhichOneof("body")
+        if kind not in _PUSHES and not self._commands.take(now_ns):
+            self.end(CloseCode.TOO_MANY_COMMANDS, f"at most {self._limits.commands_per_s} commands per second")
+            return
+        handler = _HANDLERS[self.state].get(kind)
+        if handler is not None:
+            handler(self, message, now_ns)
+        elif self.state is State.LIVE and kind is None:
+            self._warn("unknown_message", "a message of this kind is not known here; both sides work on without it")
+        else:
+            self.end(CloseCode.WRONG_ORDER, f"a {kind or 'message of an unknown kind'} came while {self.state.replace('_', ' ')}")
+
+    def _on_hello(self, message: pb.ClientMessage, now_ns: int) -> None:
+        hello = message.hello
+        admission = self._access.admit(hello.token, hello.pairing_code, now_ns)
+        if not admission.admitted:
+            self.end(CloseCode.WRONG_TOKEN, "token or pairing code are missing, wrong or used up")
+            return
+        self.client = hello.client
+        self.subscription = Subscription.from_proto(hello.subscribe)
+        held = _held(hello.resume)
+        missed = self._missed(hello.resume, held, now_ns) if hello.HasField("resume") else None
+        self._view = PointerView(self.subscription, held if missed is not None else None)
+        self._offset = self._journal.offset if missed is None else hello.resume.offset
+        self.state = State.LIVE
+        self._control.append(pb.ServerMessage(welcome=self._welcome(hello, admission.token, missed is not None, now_ns)))
+        if hello.protocol_minor > PROTOCOL_MINOR:
+            self._warn("older_server", f"the server speaks minor {PROTOCOL_MINOR}; see Welcome.features for what it can do")
+        for batch in missed or ():
+            self._outbox.push(batch)
+        self._progress_ns = now_ns
+
+    def _missed(self, resume: pb.Resume, held: dict[int, Pointer], now_ns: int) -> tuple[Batch, ...] | None:
+        """What the client missed; None when it cannot go on, also because a contact it holds ended before what is remembered."""
+        missed = self._journal.since(resume.epoch, resume.offset, now_ns)
+        if missed is None:
+            return None
+        open_now = {event.pointer_id for event in self._journal.pointers}
+        contacts_now = {(event.pointer_id, event.contact_id) for event in self._journal.contacts.values()}
+        in_gap = {event.pointer_id for batch in missed for event in batch.events}
+        for pointer_id, pointer in held.items():
+            goes_on = (pointer_id, pointer.contact_id) in contacts_now if pointer.is_down else pointer_id in open_now
+            if not goes_on and pointer_id not in in_gap:
+                return None
+        return missed
+
+    def _welcome(self, hello: pb.Hello, token: str, recovered: bool, now_ns: int) -> pb.Welcome:
+        wanted = [event_to_proto(event) for event in self._journal.pointers if self.subscription.wants_place(event)]
+        return pb.Welcome(
+            epoch=self._journal.epoch,
+            recovered=recovered,
+            resume_requested=hello.HasField("resume"),
+            protocol_minor=PROTOCOL_MINOR,
+            server_version=self._info.version,
+            heartbeat_ms=self._limits.heartbeat_ns // MILLISECOND_NS,
+            active_heartbeat_ms=self._limits.active_heartbeat_ns // MILLISECOND_NS,
+            input_ttl_ms=self._limits.input_ttl_ns // MILLISECOND_NS,
+            features=self._info.features,
+            settings=self._info.settings,
+            snapshot=pb.Snapshot(pointers=wanted),
+            server_now_ns=now_ns,
+            token=token,
+        )
+
+    def _on_subscribe(self, message: pb.ClientMessage, now_ns: int) -> None:
+        del now_ns
+        self.subscription = self._view.subscription = Subscription.from_proto(message.subscribe)
+
+    def _on_clock_request(self, message: pb.ClientMessage, now_ns: int) -> None:
+        reply = pb.ClockReply(client_send_ns=message.clock_request.client_send_ns, server_receive_ns=now_ns)
+        self._control.append(pb.ServerMessage(clock_reply=reply))
+
+    def _on_heartbeat(self, message: pb.ClientMessage, now_ns: int) -> None:
+        """Nothing to do: that it came is all it says."""
+
+    def _on_push(self, message: pb.ClientMessage, now_ns: int) -> None:
+        kind = message.WhichOneof("body")
+        if self._push is not None and kind is not None:
+            self._push(getattr(message, kind))
+        elif self._commands.take(now_ns):
+            self._warn("not_a_source", "this server has its own source; start it with one that takes what clients push")
+        else:
+            self.end(CloseCode.TOO_MANY_COMMANDS, "this server has its own source and takes no frames, hands or fingers")
+
+    # ---------------------------------------------------------------------------------------------------------- server to client
+
+    def offer(self, batch: Batch, now_ns: int) -> None:
+        """Take the newest batch; the client is closed when too much waits for it."""
+        if self.state is not State.LIVE:
+            return
+        if not self.has_waiting:
+            self._progress_ns = now_ns
+        self._outbox.push(batch)
+        if self._outbox.is_overfull:
+            self._end_slow()
+
+    def offer_status(self, status: pb.Status) -> None:
+        """Take the newest status, for clients that asked; left out while others wait."""
+        if self.state is State.LIVE and self.subscription.status and not self._control:
+            mine = pb.Status()
+            mine.CopyFrom(status)
+            mine.merged = self.merged
+            self._control.append(pb.ServerMessage(status=mine))
+
+    def offer_hands(self, hands: pb.HandsView) -> None:
+        """Take the newest landmarks, for clients that asked; left out while others wait."""
+        if self.state is State.LIVE and self.subscription.landmarks and not self.has_waiting:
+            self._control.append(pb.ServerMessage(hands=hands))
+
+    def next_message(self, now_ns: int) -> bytes | str | None:
+        """The next message to send now, None when there is none."""
+        self._progress_ns = now_ns
+        if self.close:
+            return None
+        if self._control:
+            return self._finish(self._control.popleft(), now_ns)
+        while not self._runs:
+            if not len(self._outbox) or self._is_holding(now_ns):
+                return None
+            self._take_in(self._outbox.pop(), now_ns)
+        batch, run = self._runs.popleft()
+        if not self._runs:
+            self._offset = batch.offset
+        self._sent_ns = now_ns
+        return self._encode(batch, run, now_ns)
+
+    def tick(self, now_ns: int) -> None:
+        """Let time pass: a missing Hello, a client that stopped reading, or a heartbeat that is due."""
+        if self.close:
+            return
+        if self.state is State.AWAITING_HELLO:
+            if now_ns >= self._hello_due_ns:
+                self.end(CloseCode.HELLO_TIMEOUT, "no Hello came")
+        elif self.has_waiting and now_ns - self._progress_ns > self._limits.patience_ns:
+            self._end_slow()
+        elif now_ns - self._sent_ns >= self._silence_ns and (not self.has_waiting or self._is_holding(now_ns)):
+            active = len(self._journal.contacts)
+            self._control.append(pb.ServerMessage(heartbeat=pb.Heartbeat(active_contacts=active)))
+
+    def end(self, code: CloseCode, reason: str = "") -> None:
+        """Close the connection; the first reason counts."""
+        if self.close is None:
+            self.close = Close(code, _shortened(reason))
+        self.state = State.CLOSED
+
+    def _is_holding(self, now_ns: int) -> bool:
+        """True when all that waits is held back by the client's own rate."""
+        head = self._outbox.head
+        only_moves = head is not None and not head.has_edges and len(self._outbox) == 1
+        return only_moves and not self._control and not self._runs and now_ns < self._next_stream_ns
+
+    @property
+    def _silence_ns(self) -> int:
+        return self._limits.active_heartbeat_ns if self._journal.contacts else self._limits.heartbeat_ns
+
+    def _end_slow(self) -> None:
+        self.end(CloseCode.TOO_SLOW, "the client reads too slowly")
+
+    def _warn(self, code: str, text: str) -> None:
+        self._control.append(pb.ServerMessage(warning=pb.Warning(code=code, message=text)))
+
+    def _take_in(self, batch: Batch, now_ns: int) -> None:
+        """Turn a batch into what this client sees of it; a part of it is sent with the offset before it, the last with its own."""
+        stale = now_ns - batch.published_ns > self._limits.input_ttl_ns
+        runs = self._view.apply(batch.events, stale=stale, replay=batch.replay)
+        self._runs.extend((batch, run) for run in runs)
+        if not runs:
+            self._offset = batch.offset
+        elif self.subscription.max_rate_hz:
+            self._next_stream_ns = now_ns + ceil(SECOND_NS / self.subscription.max_rate_hz)
+
+    def _finish(self, message: pb.ServerMessage, now_ns: int) -> bytes | str:
+        message.offset = self._offset
+        if message.HasField("clock_reply"):
+            message.clock_reply.server_send_ns = now_ns
+        elif message.HasField("heartbeat"):
+            message.heartbeat.sent_ns = now_ns
+        self._sent_ns = now_ns
+        return self._subprotocol.encode(message)
+
+    def _encode(self, batch: Batch, run: Run, now_ns: int) -> bytes | str:
+        late, events = run
+        key = (self._subprotocol.name, self.subscription.latest_only, late, self._offset, tuple(map(id, events)))
+        shared = batch.encoded.get(key)
+        if shared is not None and now_ns - batch.published_ns <= SHARED_NS:
+            return shared[1]
+        content = pb.EventBatch(
+            frame_index=batch.frame_index,
+            timestamp_ns=batch.timestamp_ns,
+            sent_ns=now_ns,
+            events=[self._event(event) for event in events],
+            late=late,
+        )
+        data = self._subprotocol.encode(pb.ServerMessage(offset=self._offset, batch=content))
+        batch.encoded[key] = events, data
+        return data
+
+    def _event(self, event: TouchEvent) -> pb.TouchEvent:
+        message = event_to_proto(event)
+        if self.subscription.latest_only:
+            del message.coalesced[:]
+        return message
+
+
+_Handler = Callable[[Session, pb.ClientMessage, int], None]
+_PUSHES = frozenset({"frame", "hands", "simulated"})
+
+#: What a client may say in which state; everything else closes the connection.
+_HANDLERS: dict[State, dict[str | None, _Handler]] = {
+    State.AWAITING_HELLO: {"hello": Session._on_hello},
+    State.LIVE: {
+        "subscribe": Session._on_subscribe,
+        "clock_request": Session._on_clock_request,
+        "heartbeat": Session._on_heartbeat,
+        "frame": Session._on_push,
+        "hands": Session._on_push,
+        "simulated": Session._on_push,
+    },
+    State.CLOSED: {},
+}
+
+
+def _held(resume: pb.Resume) -> dict[int, Pointer]:
+    if len(resume.held) > MAX_HELD:
+        raise ProtocolError(f"a Resume holds {len(resume.held)} pointers", hint=f"Name at most {MAX_HELD}")
+    return {
+        held.pointer_id: Pointer(held.contact_id, True, held.dragging, held.pressing) if held.contact_id else Pointer() for held in resume.held
+    }
+
+
+def _shortened(reason: str) -> str:
+    return reason if len(reason.encode()) <= 123 else reason.encode()[:120].decode(errors="ignore") + "..."
