@@ -10,12 +10,29 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from egotouch_sdk.config import TouchConfig
-    from egotouch_sdk.errors import ConfigError, EgoTouchError, FrameError, MissingExtraError, ModelError, SourceError
+    from egotouch_sdk.ego_touch import EgoTouch
+    from egotouch_sdk.engine import EventEngine
+    from egotouch_sdk.errors import (
+        ConfigError,
+        EgoTouchError,
+        FrameError,
+        GrammarError,
+        LayoutError,
+        MissingExtraError,
+        ModelError,
+        ProtocolError,
+        QueueFullError,
+        RecordingError,
+        SourceError,
+    )
     from egotouch_sdk.frame import Frame
+    from egotouch_sdk.frame_observation import FrameObservation
     from egotouch_sdk.joints import Finger, HandJoint, Handedness
-    from egotouch_sdk.observation import FingertipPatch, GateReason, GateResult, HandObservation, TouchEstimate, TouchPair
+    from egotouch_sdk.listeners import ErrorEvent, Subscription, TouchListener, TrackingState
+    from egotouch_sdk.observation import FingertipPatch, GateReason, GateResult, HandObservation, HostPoint, TouchEstimate, TouchPair
     from egotouch_sdk.pipeline import FrameResult, TouchPipeline
-    from egotouch_sdk.sources import FrameSource, PushSource, open_source
+    from egotouch_sdk.sources import FrameSource, ObservationSource, PushSource, open_source
+    from egotouch_sdk.surface import Surface
     from egotouch_sdk.touch_event import CancelReason, EventType, TouchEvent
 
 __version__ = "0.1.0"
@@ -23,28 +40,43 @@ __version__ = "0.1.0"
 __all__ = [
     "CancelReason",
     "ConfigError",
+    "EgoTouch",
     "EgoTouchError",
+    "ErrorEvent",
+    "EventEngine",
     "EventType",
     "Finger",
     "FingertipPatch",
     "Frame",
     "FrameError",
+    "FrameObservation",
     "FrameResult",
     "FrameSource",
     "GateReason",
     "GateResult",
+    "GrammarError",
     "HandJoint",
     "HandObservation",
     "Handedness",
+    "HostPoint",
+    "LayoutError",
     "MissingExtraError",
     "ModelError",
+    "ObservationSource",
+    "ProtocolError",
     "PushSource",
+    "QueueFullError",
+    "RecordingError",
     "SourceError",
+    "Subscription",
+    "Surface",
     "TouchConfig",
     "TouchEstimate",
     "TouchEvent",
+    "TouchListener",
     "TouchPair",
     "TouchPipeline",
+    "TrackingState",
     "__version__",
     "open_source",
 ]
@@ -53,12 +85,29 @@ _MODULE_OF = {
     name: f"egotouch_sdk.{module}"
     for module, names in {
         "config": ("TouchConfig",),
-        "errors": ("ConfigError", "EgoTouchError", "FrameError", "MissingExtraError", "ModelError", "SourceError"),
+        "ego_touch": ("EgoTouch",),
+        "engine": ("EventEngine",),
+        "errors": (
+            "ConfigError",
+            "EgoTouchError",
+            "FrameError",
+            "GrammarError",
+            "LayoutError",
+            "MissingExtraError",
+            "ModelError",
+            "ProtocolError",
+            "QueueFullError",
+            "RecordingError",
+            "SourceError",
+        ),
         "frame": ("Frame",),
+        "frame_observation": ("FrameObservation",),
         "joints": ("Finger", "HandJoint", "Handedness"),
-        "observation": ("FingertipPatch", "GateReason", "GateResult", "HandObservation", "TouchEstimate", "TouchPair"),
+        "listeners": ("ErrorEvent", "Subscription", "TouchListener", "TrackingState"),
+        "observation": ("FingertipPatch", "GateReason", "GateResult", "HandObservation", "HostPoint", "TouchEstimate", "TouchPair"),
         "pipeline": ("FrameResult", "TouchPipeline"),
-        "sources": ("FrameSource", "PushSource", "open_source"),
+        "sources": ("FrameSource", "ObservationSource", "PushSource", "open_source"),
+        "surface": ("Surface",),
         "touch_event": ("CancelReason", "EventType", "TouchEvent"),
     }.items()
     for name in names

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+from collections.abc import Mapping, Sequence
 from difflib import get_close_matches
 from pathlib import Path
 from typing import Any, Literal, Self
@@ -9,6 +11,8 @@ from typing import Any, Literal, Self
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 from pydantic.functional_validators import ModelWrapValidatorHandler
 
+from egotouch_sdk.config_layers import Layer, merged, read_environment, read_file
+from egotouch_sdk.config_presets import PRESET_NAMES, PresetName, preset_settings
 from egotouch_sdk.errors import ConfigError
 
 
@@ -36,8 +40,16 @@ def _config_error(section: type[BaseModel], error: ValidationError) -> ConfigErr
 
 
 def _nearest(section: type[BaseModel], unknown: str) -> str:
-    close = get_close_matches(unknown, section.model_fields, n=1)
-    return f"Did you mean {close[0]}?" if close else f"There are: {', '.join(section.model_fields)}"
+    """The section's own names first, then those of every section."""
+    if close := get_close_matches(unknown, section.model_fields, n=1):
+        return f"Did you mean {close[0]}?"
+    places: dict[str, list[str]] = {}
+    for owner, names in TouchConfig.names().items():
+        for name in names if owner else ():
+            places.setdefault(name, []).append(f"{owner}.{name}")
+    if close := get_close_matches(unknown, places, n=1):
+        return f"Did you mean {' or '.join(places[close[0]])}?"
+    return f"There are: {', '.join(section.model_fields)}"
 
 
 def _require_order(section: BaseModel, low: str, high: str) -> None:
@@ -245,7 +257,11 @@ class HostConfig(_Section):
 
 
 class TouchConfig(_Section):
-    """All settings of the pipeline, one section per stage; the defaults work for an egocentric camera."""
+    """All settings of the pipeline, one section per stage; the defaults work for an egocentric camera.
+
+    Settings come from code (`TouchConfig(gestures={"touch_slop_mm": 2})`), a preset, a file, or the environment; `load` layers them.
+    Every mistake is a `ConfigError` that names the setting, where it came from, and the nearest right name.
+    """
 
     hands: HandsConfig = HandsConfig()
     gate: GateConfig = GateConfig()
@@ -255,3 +271,89 @@ class TouchConfig(_Section):
     state: StateConfig = StateConfig()
     gestures: GestureConfig = GestureConfig()
     debug: bool = Field(default=False, description="Check the grammar of every event; a breach raises GrammarError.")
+
+    @classmethod
+    def android(cls) -> Self:
+        """Android's own timeouts and slops (`ViewConfiguration`), in millimetres of skin at 160 dp per inch."""
+        return cls.load(preset="android")
+
+    @classmethod
+    def precise(cls) -> Self:
+        """Small targets and fine force, for a steady camera in good light."""
+        return cls.load(preset="precise")
+
+    @classmethod
+    def forgiving(cls) -> Self:
+        """Large slops and long timeouts, for unsteady hands, a moving head and poor light."""
+        return cls.load(preset="forgiving")
+
+    @classmethod
+    def from_file(cls, path: str | Path) -> Self:
+        """Settings of a .toml or .json file with the sections and names of this class; what it leaves out keeps its default."""
+        return cls._layered([read_file(path)])
+
+    @classmethod
+    def from_env(cls, prefix: str = "EGOTOUCH_", environ: Mapping[str, str] = os.environ) -> Self:
+        """Settings of environment variables such as EGOTOUCH_GESTURES__LONG_PRESS_TIMEOUT_MS=500 or EGOTOUCH_DEBUG=1.
+
+        `none` stands for None. Variables with the prefix that do not look like a setting are left alone.
+        """
+        return cls._layered(read_environment(cls.names(), prefix, environ))
+
+    @classmethod
+    def load(
+        cls,
+        path: str | Path | None = None,
+        *,
+        preset: PresetName | None = None,
+        environ: Mapping[str, str] | None = None,
+        overrides: Mapping[str, Any] | None = None,
+    ) -> Self:
+        """Settings in layers: preset, then file, then environment (when given), then `overrides` from code; the last one counts."""
+        layers: list[Layer] = []
+        if preset is not None:
+            if preset not in PRESET_NAMES:
+                raise ConfigError(f"there is no preset {preset!r}", hint=f"There are: {', '.join(PRESET_NAMES)}")
+            layers.append(Layer(f"preset {preset}", preset_settings(preset)))
+        if path is not None:
+            layers.append(read_file(path))
+        if environ is not None:
+            layers += read_environment(cls.names(), "EGOTOUCH_", environ)
+        if overrides:
+            layers.append(Layer("", overrides))
+        return cls._layered(layers)
+
+    @classmethod
+    def names(cls) -> dict[str, tuple[str, ...]]:
+        """The settings of each section; under `""` those outside sections."""
+        sections = cls.sections()
+        inner = {name: tuple(section.model_fields) for name, section in sections.items()}
+        return {**inner, "": tuple(name for name in cls.model_fields if name not in sections)}
+
+    @classmethod
+    def sections(cls) -> dict[str, type[BaseModel]]:
+        """The class of each section."""
+        kinds = {name: field.annotation for name, field in cls.model_fields.items()}
+        return {name: kind for name, kind in kinds.items() if isinstance(kind, type) and issubclass(kind, BaseModel)}
+
+    @classmethod
+    def _layered(cls, layers: Sequence[Layer]) -> Self:
+        try:
+            return cls._merged(layers)
+        except ConfigError as error:
+            origin, cause = cls._first_mistake(layers, error)
+            raise ConfigError(f"{origin}: {cause.message}" if origin else cause.message, hint=cause.hint) from None
+
+    @classmethod
+    def _first_mistake(cls, layers: Sequence[Layer], error: ConfigError) -> tuple[str, ConfigError]:
+        """The layer that made the settings wrong, and in which way."""
+        for count, layer in enumerate(layers[:-1], 1):
+            try:
+                cls._merged(layers[:count])
+            except ConfigError as earlier:
+                return layer.origin, earlier
+        return layers[-1].origin, error
+
+    @classmethod
+    def _merged(cls, layers: Sequence[Layer]) -> Self:
+        return cls.model_validate(merged(layer.settings for layer in layers))

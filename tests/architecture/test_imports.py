@@ -15,7 +15,7 @@ PACKAGE = Path(__file__).parents[2] / "egotouch_sdk"
 #: A module imports only from lower ranks or from its own sub-package.
 RANKS: tuple[frozenset[str], ...] = (
     frozenset({"errors", "joints", "surface", "clock"}),
-    frozenset({"frame", "observation", "touch_event"}),
+    frozenset({"frame", "observation", "touch_event", "config_layers", "config_presets"}),
     frozenset({"frame_observation", "config", "hand_geometry", "model_input", "model_store", "inference", "events"}),
     frozenset({"frame_result"}),
     frozenset({"wire", "listeners"}),
