@@ -71,6 +71,8 @@ from egotouch_sdk.gestures.velocity import VelocityTracker
 from egotouch_sdk.touch_event import EventType, TouchEvent
 
 _ENDS = {EventType.UP, EventType.CANCEL}
+#: A timer is due this much early: 12 frames of 33333333 ns are 400 ms.
+_ROUNDING_NS = 1_000
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,8 +106,8 @@ class GestureRecognizer:
     def __init__(self, config: GestureConfig) -> None:
         self._config = config
         self._slop_mm = config.touch_slop_mm
-        self._long_press_ns = round(config.long_press_timeout_ms * 1e6)
-        self._deep_ns = round(config.tap_timeout_ms * 1e6)
+        self._long_press_ns = round(config.long_press_timeout_ms * 1e6) - _ROUNDING_NS
+        self._deep_ns = round(config.tap_timeout_ms * 1e6) - _ROUNDING_NS
         self._clicks = ClickMemory(config)
         self._contacts: dict[int, _Contact] = {}
 

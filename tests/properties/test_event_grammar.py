@@ -3,103 +3,136 @@
 from __future__ import annotations
 
 import os
-import random
+import time
+from collections import Counter
+from itertools import pairwise
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import HealthCheck, Phase, given, seed, settings
 from hypothesis import strategies as st
 
-from egotouch_sdk.config import StateConfig
-from egotouch_sdk.events import GrammarVerifier
-from egotouch_sdk.joints import FINGERS, Handedness
-from egotouch_sdk.observation import HostPoint
-from egotouch_sdk.state import FingertipSample, Thresholds, TouchStateMachine
-from egotouch_sdk.state.inputs import has_jumped
-from egotouch_sdk.surface import Surface
-from egotouch_sdk.touch_event import CancelReason, EventType, TouchEvent
-from tests.properties.strategies import STREAMS
+from egotouch_sdk.events import GrammarVerifier, verify_events
+from egotouch_sdk.events.order import RAW
+from egotouch_sdk.touch_event import EventType, TouchEvent
+from tests.properties.finger_programs import play
 
-Stream = list[tuple[int, list[FingertipSample]] | None]
-#: How many; set it to 1000000 for the thorough run (half an hour).
-MANY = int(os.environ.get("EGOTOUCH_GRAMMAR_STREAMS", "3000"))
+#: How many streams hypothesis draws in the long run; set it to 1000000 for the thorough one (about half an hour).
+MANY = int(os.environ.get("EGOTOUCH_GRAMMAR_STREAMS", "5000"))
+#: Hypothesis remembers every example of a run to avoid repeats, so a long run is cut into blocks with a seed each.
+BLOCK = 20_000
+PROGRAMS = st.binary(max_size=48)
+UNTIL_NOW = settings(max_examples=300, deadline=None)
 
 
-def play(stream: Stream, config: StateConfig) -> tuple[list[TouchEvent], GrammarVerifier]:
-    """Drive a new machine through a stream; time goes on when a source ends, as with a second camera."""
-    machine, verifier, events, time_ns = TouchStateMachine(config, Thresholds(0.6, 0.4)), GrammarVerifier(), [], 0
-    for frame in [*stream, None]:
-        if frame is None:
-            new = machine.finish(time_ns, CancelReason.SOURCE_ENDED)
-        else:
-            time_ns += frame[0]
-            new = machine.step(frame[1], time_ns)
-        verifier.feed(new)
-        events += new
-    verifier.close()
-    return events, verifier
+def events_of(program: bytes) -> list[TouchEvent]:
+    return play(program, GrammarVerifier())
 
 
-@given(STREAMS, st.integers(0, 3))
-@settings(max_examples=300, deadline=None)
-def test_random_streams_keep_the_grammar(stream: Stream, coast_frames: int) -> None:
-    assert play(stream, StateConfig(coast_frames=coast_frames))[1].violations == []
+def contacts_of(events: list[TouchEvent]) -> dict[tuple[int, int], list[TouchEvent]]:
+    """The events of each touch, from DOWN to what its lift meant."""
+    contacts: dict[tuple[int, int], list[TouchEvent]] = {}
+    for event in events:
+        if not event.type.is_hover:
+            contacts.setdefault((event.pointer_id, event.contact_id), []).append(event)
+    return contacts
 
 
-@given(STREAMS)
-@settings(max_examples=150, deadline=None)
-def test_every_down_gets_exactly_one_up_or_cancel(stream: Stream) -> None:
-    events, _ = play(stream, StateConfig())
-    downs = sorted((e.pointer_id, e.contact_id) for e in events if e.type is EventType.DOWN)
-    ends = sorted((e.pointer_id, e.contact_id) for e in events if e.type in (EventType.UP, EventType.CANCEL))
-    assert downs == ends
-    assert len(set(downs)) == len(downs)
+@given(PROGRAMS)
+@UNTIL_NOW
+def test_random_streams_keep_the_grammar(program: bytes) -> None:
+    verifier = GrammarVerifier()
+    events = play(program, verifier)
+    assert verifier.violations == []
+    assert verify_events(events) == ()
 
 
-@given(STREAMS)
-@settings(max_examples=150, deadline=None)
-def test_a_replay_gives_the_same_events(stream: Stream) -> None:
-    assert play(stream, StateConfig())[0] == play(stream, StateConfig())[0]
+@given(PROGRAMS)
+@UNTIL_NOW
+def test_every_down_gets_exactly_one_up_or_cancel(program: bytes) -> None:
+    for contact in contacts_of(events_of(program)).values():
+        ends = [event.type for event in contact if event.type in (EventType.UP, EventType.CANCEL)]
+        assert contact[0].type is EventType.DOWN
+        assert len(ends) == 1
 
 
-@given(STREAMS)
-@settings(max_examples=150, deadline=None)
-def test_no_touch_moves_faster_than_a_finger(stream: Stream) -> None:
-    config, places, time_ns = StateConfig(), {}, 0
-    machine = TouchStateMachine(config, Thresholds(0.6, 0.4))
-    for frame in stream:
-        if frame is None:
-            machine.finish(time_ns, CancelReason.SOURCE_ENDED)
-            continue
-        time_ns += frame[0]
-        seen = {(sample.handedness, sample.finger): sample for sample in frame[1]}
-        for event in machine.step(frame[1], time_ns):
-            if event.type in (EventType.DOWN, EventType.MOVE, EventType.UP, EventType.HOVER_MOVE):
-                sample, (before, then_ns) = seen[event.hand, event.finger], places[event.pointer_id]
-                assert not has_jumped(before, sample, time_ns - then_ns, config)
-            if (event.hand, event.finger) in seen:
-                places[event.pointer_id] = seen[event.hand, event.finger], time_ns
+@given(PROGRAMS)
+@UNTIL_NOW
+def test_a_cancelled_touch_means_nothing(program: bytes) -> None:
+    for contact in contacts_of(events_of(program)).values():
+        if contact[-1].type is EventType.CANCEL:
+            kinds = {event.type for event in contact}
+            assert kinds.isdisjoint({EventType.UP, EventType.CLICK, EventType.DOUBLE_CLICK, EventType.FLING})
+
+
+@given(PROGRAMS)
+@UNTIL_NOW
+def test_long_clicks_and_drags_keep_out_of_each_others_way(program: bytes) -> None:
+    for contact in contacts_of(events_of(program)).values():
+        kinds = [event.type for event in contact]
+        assert kinds.count(EventType.LONG_CLICK) <= 1
+        assert kinds.count(EventType.DRAG_START) == kinds.count(EventType.DRAG_END) <= 1
+        assert kinds.count(EventType.FORCE_ENTER) == kinds.count(EventType.FORCE_EXIT)
+        if EventType.DRAG_START in kinds:
+            assert EventType.CLICK not in kinds
+            assert EventType.LONG_CLICK not in kinds[kinds.index(EventType.DRAG_START) :]
+
+
+@given(PROGRAMS)
+@UNTIL_NOW
+def test_no_touch_jumps(program: bytes) -> None:
+    for contact in contacts_of(events_of(program)).values():
+        for before, after in pairwise([event for event in contact if event.type in RAW]):
+            way_mm = ((after.x_mm - before.x_mm) ** 2 + (after.y_mm - before.y_mm) ** 2) ** 0.5
+            assert way_mm <= 3.0 * (after.timestamp_ns - before.timestamp_ns) / 1e6 + 20.01
+
+
+@given(PROGRAMS)
+@UNTIL_NOW
+def test_one_pointer_at_a_time_for_each_finger(program: bytes) -> None:
+    owners: dict[tuple[str, str], int] = {}
+    for event in events_of(program):
+        if event.type is EventType.HOVER_ENTER:
+            assert (event.hand, event.finger) not in owners
+            owners[event.hand, event.finger] = event.pointer_id
+        assert owners[event.hand, event.finger] == event.pointer_id
+        if event.type is EventType.HOVER_EXIT:
+            del owners[event.hand, event.finger]
+    assert owners == {}
+
+
+@given(PROGRAMS)
+@UNTIL_NOW
+def test_a_replay_gives_the_same_events(program: bytes) -> None:
+    assert events_of(program) == events_of(program)
 
 
 @pytest.mark.slow
 def test_many_random_streams_keep_the_grammar() -> None:
-    rng = random.Random(1)
-    touches = 0
-    for _ in range(MANY):
-        stream: Stream = []
-        for _ in range(rng.randint(1, 30)):
-            if rng.random() < 0.02:
-                stream.append(None)
-                continue
-            slots = [(side, finger) for side in Handedness for finger in FINGERS[:3] if rng.random() < 0.35]
-            stream.append((rng.choice([1, 33_000_000, 33_000_000, 90_000_000, 260_000_000]), [random_sample(rng, *slot) for slot in slots]))
-        events, verifier = play(stream, StateConfig(coast_frames=rng.randint(0, 3)))
+    counts: Counter[EventType] = Counter()
+    streams = violations = 0
+    start_s = time.perf_counter()
+
+    def check(program: bytes) -> None:
+        nonlocal streams, violations
+        verifier = GrammarVerifier()
+        counts.update(event.type for event in play(program, verifier))
+        streams += 1
+        violations += len(verifier.violations)
         assert verifier.violations == []
-        touches += sum(event.type is EventType.DOWN for event in events)
-    assert touches > MANY / 2
 
-
-def random_sample(rng: random.Random, side: Handedness, finger: str) -> FingertipSample:
-    x, y = 500 + rng.choice([0.0, 0.0, 3.0, 600.0]), 500.0
-    point = HostPoint(Surface.PALM, x / 2, y / 2, 0.7, 0.0)
-    hand_id = 1 + (rng.random() < 0.05)
-    return FingertipSample(hand_id, side, finger, rng.choice([0.1, 0.5, 0.9, 0.9]), 1.0, (x, y), 2.0, (x / 2000, 0.5), point)  # type: ignore[arg-type]
+    block = 0
+    while streams < MANY:
+        options = settings(
+            max_examples=min(BLOCK, MANY - streams),
+            deadline=None,
+            database=None,
+            phases=[Phase.generate, Phase.shrink],
+            suppress_health_check=[HealthCheck.too_slow],
+        )
+        seed(block)(options(given(PROGRAMS)(check)))()
+        block += 1
+        if block % 5 == 0:
+            print(f"{streams} streams, {counts.total()} events, {violations} violations, {time.perf_counter() - start_s:.0f} s", flush=True)
+    print(f"{streams} streams, {counts.total()} events, {violations} violations, {time.perf_counter() - start_s:.0f} s")
+    print(", ".join(f"{count} {kind}" for kind, count in counts.most_common()))
+    assert set(counts) == set(EventType), "the streams must reach every kind of event"

@@ -18,6 +18,7 @@ from tests.support.sources import FRAME_NS, ScriptedHands, grey_frame
 
 ENTER, HOVER, EXIT = EventType.HOVER_ENTER, EventType.HOVER_MOVE, EventType.HOVER_EXIT
 DOWN, MOVE, UP, CANCEL = EventType.DOWN, EventType.MOVE, EventType.UP, EventType.CANCEL
+CLICK, LONG_CLICK = EventType.CLICK, EventType.LONG_CLICK
 HOST = host_hand()
 FINGER = pointing_hand(palm_centre(HOST))
 
@@ -28,7 +29,7 @@ class ScriptedTouch(TouchModel):
     touching = False
 
     def estimate(self, patches: Sequence[FingertipPatch]) -> tuple[TouchEstimate, ...]:
-        probability, force_n = (0.99, 2.0) if self.touching else (0.01, 0.0)
+        probability, force_n = (0.99, 1.0) if self.touching else (0.01, 0.0)
         return tuple(TouchEstimate(patch.hand_id, patch.finger, probability, force_n) for patch in patches)
 
 
@@ -64,8 +65,8 @@ def wearer() -> Wearer:
 def test_a_touch_and_a_lift_come_one_frame_late_through_the_median(wearer: Wearer) -> None:
     assert wearer.show(FINGER, HOST, frames=3) == [ENTER, HOVER, HOVER]
     assert wearer.show(FINGER, HOST, touching=True, frames=3) == [HOVER, DOWN, MOVE]
-    assert wearer.result.events[0].force_n == 2.0
-    assert wearer.show(FINGER, HOST, frames=3) == [MOVE, UP, HOVER]
+    assert wearer.result.events[0].force_n == 1.0
+    assert wearer.show(FINGER, HOST, frames=3) == [MOVE, UP, CLICK, HOVER]
 
 
 def test_one_wrong_frame_is_no_touch(wearer: Wearer) -> None:
@@ -107,7 +108,7 @@ def test_no_hands_no_events(wearer: Wearer) -> None:
 def test_a_host_hidden_by_the_finger_is_remembered_for_half_a_second(wearer: Wearer) -> None:
     wearer.show(FINGER, HOST, frames=2)
     wearer.show(FINGER, HOST, touching=True, frames=2)
-    assert wearer.show(FINGER, touching=True, frames=15) == [MOVE] * 15
+    assert wearer.show(FINGER, touching=True, frames=15) == [MOVE] * 12 + [LONG_CLICK] + [MOVE] * 3
     assert wearer.result.hands == (FINGER,)
     assert wearer.show(FINGER, touching=True, frames=4) == [CANCEL, EXIT]
     assert wearer.result.gate.reason is GateReason.NO_HOST
