@@ -40,15 +40,14 @@ def _config_error(section: type[BaseModel], error: ValidationError) -> ConfigErr
 
 
 def _nearest(section: type[BaseModel], unknown: str) -> str:
-    """The section's own names first, then those of every section."""
-    if close := get_close_matches(unknown, section.model_fields, n=1):
-        return f"Did you mean {close[0]}?"
+    """What was meant: a setting of another section with just this name, else the section's own nearest name, else any nearest."""
     places: dict[str, list[str]] = {}
     for owner, names in TouchConfig.names().items():
         for name in names if owner else ():
             places.setdefault(name, []).append(f"{owner}.{name}")
-    if close := get_close_matches(unknown, places, n=1):
-        return f"Did you mean {' or '.join(places[close[0]])}?"
+    for known in ([unknown] if unknown in places else [], section.model_fields, places):
+        if close := get_close_matches(unknown, known, n=1):
+            return f"Did you mean {' or '.join(places[close[0]]) if known is not section.model_fields else close[0]}?"
     return f"There are: {', '.join(section.model_fields)}"
 
 

@@ -25,6 +25,7 @@ COMMANDS = (
     "egotouch_sdk.cli.hands",
     "egotouch_sdk.cli.estimate",
     "egotouch_sdk.cli.bench",
+    "egotouch_sdk.cli.config",
     "egotouch_sdk.cli.doctor",
     "egotouch_sdk.evaluation.cli",
     "egotouch_sdk.synthetic.cli",

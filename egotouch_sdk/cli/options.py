@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 import argparse
-import json
+import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from egotouch_sdk.errors import ConfigError
+from egotouch_sdk.config_presets import PRESET_NAMES
 
 if TYPE_CHECKING:
     from egotouch_sdk.cli.play import Engine
     from egotouch_sdk.config import TouchConfig
     from egotouch_sdk.sources import FrameSource, ObservationSource
-
-_CONFIG_HINT = 'Write it like {"hands": {"max_hands": 2}}'
 
 Subparsers = Any  # argparse's own type for it is private
 
@@ -39,15 +37,16 @@ def add_source_options(parser: argparse.ArgumentParser) -> None:
 
 
 def add_pipeline_options(parser: argparse.ArgumentParser) -> None:
-    """--mirrored, --threads and --config."""
+    """--mirrored, --threads, --config and --preset."""
     parser.add_argument("--mirrored", action="store_true", help="the picture is a mirror image, as from a selfie camera")
     add_threads_option(parser)
     add_config_option(parser)
 
 
 def add_config_option(parser: argparse.ArgumentParser) -> None:
-    """--config."""
-    parser.add_argument("--config", type=Path, metavar="FILE", help="settings as JSON, with the sections and names of TouchConfig")
+    """--config and --preset."""
+    parser.add_argument("--config", type=Path, metavar="FILE", help="settings as .toml or .json; `egotouch config` prints them all")
+    parser.add_argument("--preset", choices=PRESET_NAMES, help="a set of settings to begin with")
 
 
 def add_threads_option(parser: argparse.ArgumentParser) -> None:
@@ -116,14 +115,14 @@ def _asked_of_source(options: argparse.Namespace) -> dict[str, Any]:
 def engine_from(options: argparse.Namespace, source: FrameSource | ObservationSource) -> Engine[Any]:
     """What turns the items of `source` into events: a whole pipeline for pictures, the event engine for observations.
 
-    Observations that carry their own settings are replayed with them unless the command line has a config file.
+    Observations that carry their own settings are replayed with them unless the command line names others.
     """
     from egotouch_sdk.sources import ObservationSource
 
     if isinstance(source, ObservationSource):
         from egotouch_sdk.engine import THRESHOLDS, EventEngine
 
-        own = None if options.config else source.config
+        own = None if options.config or options.preset else source.config
         return EventEngine(own or config_from(options), source.thresholds or THRESHOLDS)
     from egotouch_sdk.pipeline import TouchPipeline
 
@@ -131,13 +130,12 @@ def engine_from(options: argparse.Namespace, source: FrameSource | ObservationSo
 
 
 def config_from(options: argparse.Namespace) -> TouchConfig:
-    """Settings of the config file, with the command line's on top."""
+    """Settings of the preset, then the config file, then the environment, then the command line; the last one counts."""
     from egotouch_sdk.config import TouchConfig
 
-    settings = _read_settings(options.config) if options.config else {}
-    if options.mirrored:
-        settings.setdefault("hands", {})["mirrored"] = True
-    return TouchConfig(**with_threads(settings, options.threads))
+    flags: dict[str, Any] = {"hands": {"mirrored": True}} if options.mirrored else {}
+    overrides = with_threads(flags, options.threads)
+    return TouchConfig.load(options.config, preset=options.preset, environ=os.environ, overrides=overrides)
 
 
 def with_threads(settings: dict[str, Any], threads: int | None) -> dict[str, Any]:
@@ -145,15 +143,3 @@ def with_threads(settings: dict[str, Any], threads: int | None) -> dict[str, Any
     if threads is None:
         return settings
     return settings | {section: {**settings.get(section, {}), "threads": threads} for section in ("hands", "touch")}
-
-
-def _read_settings(path: Path) -> dict[str, Any]:
-    try:
-        settings = json.loads(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise ConfigError(f"cannot read the config file {path} ({error.strerror})", hint="Check the path") from error
-    except ValueError as error:
-        raise ConfigError(f"the config file {path} is not JSON ({error})", hint=_CONFIG_HINT) from error
-    if not isinstance(settings, dict) or not all(isinstance(section, dict) for section in settings.values()):
-        raise ConfigError(f"the config file {path} is not an object of sections", hint=_CONFIG_HINT)
-    return settings
