@@ -331,9 +331,11 @@ _HANDLERS: dict[State, dict[str | None, _Handler]] = {
 def _held(resume: pb.Resume) -> dict[int, Pointer]:
     if len(resume.held) > MAX_HELD:
         raise ProtocolError(f"a Resume holds {len(resume.held)} pointers", hint=f"Name at most {MAX_HELD}")
-    return {
-        held.pointer_id: Pointer(held.contact_id, True, held.dragging, held.pressing) if held.contact_id else Pointer() for held in resume.held
-    }
+    return {held.pointer_id: _pointer(held) for held in resume.held}
+
+
+def _pointer(held: pb.HeldPointer) -> Pointer:
+    return Pointer(held.contact_id, True, held.dragging, held.pressing) if held.contact_id else Pointer()
 
 
 def _shortened(reason: str) -> str:

@@ -35,7 +35,8 @@ class Protobuf:
 
     def encode(self, message: pb.ServerMessage) -> bytes:
         """The message's bytes."""
-        return message.SerializeToString()
+        data: bytes = message.SerializeToString()
+        return data
 
     def decode(self, data: bytes | str) -> pb.ClientMessage:
         """The client's message; raises `ProtocolError` for text and for bytes that are none."""

@@ -5,7 +5,6 @@
 //   access   {reason}            the server wants a token or pairing code; call `start` again once there is one
 //   welcome  the Welcome         settings, features, epoch
 //   events   {events, local}     what happened, in order; `local` is true for CANCELs made here
-//   snapshot [event, …]          the last event of every open pointer, to show them
 //   timing   {ageMs, sentMs, uncertaintyMs}   capture to arrival, capture to sending, error bound of the clock
 //   status, hands, warning       as the server sent them
 
@@ -117,28 +116,18 @@ export class Connection extends EventTarget {
     if (message.kind === "welcome") this.#welcomed(message.body);
     if (this.#welcome) this.#resume = { epoch: this.#welcome.epoch, offset: message.offset };
     if (message.kind === "batch") this.#batch(message.body, now);
-    else if (message.kind === "snapshot") this.#adopt(message.body);
     else if (message.kind === "clockReply") this.clock.add(message.body, now);
     else if (message.kind === "status" || message.kind === "hands" || message.kind === "warning") this.#emit(message.kind, message.body);
   }
 
   #welcomed(welcome) {
-    if (this.#resume && this.#resume.epoch !== welcome.epoch) {
-      this.clock.reset();
-      this.pointers.forgetEnded();
-    }
+    if (this.#resume && this.#resume.epoch !== welcome.epoch) this.clock.reset();
     this.#welcome = welcome;
     this.#attempt = 0;
     this.#probes = 0;
     if (welcome.token) this.#options.keepToken(welcome.token);
-    this.#adopt(welcome.snapshot);
     this.#change("live", "Connected.");
     this.#emit("welcome", welcome);
-  }
-
-  #adopt(snapshot) {
-    this.#cancelHere(this.pointers.reconcile(snapshot));
-    this.#emit("snapshot", this.pointers.events);
   }
 
   #batch(batch, now) {

@@ -8,6 +8,7 @@ const SCALE_BAR_MM = 20;
 export class LimbView {
   #canvas;
   #skin = null;
+  #outline = new Path2D();
   #scale = 1; // CSS pixels per millimetre
   #ratio = 1;
   #host = "LEFT";
@@ -29,8 +30,7 @@ export class LimbView {
   set host(host) {
     if (host === this.#host) return;
     this.#host = host;
-    this.#skin = null;
-    this.draw();
+    this.refresh();
   }
 
   get canvas() {
@@ -67,6 +67,19 @@ export class LimbView {
     return yMm < 0 ? "OUTER_FOREARM" : "BACK_OF_HAND";
   }
 
+  /** True where a point of the canvas (CSS pixels) is on the limb. */
+  isOnSkin(x, y) {
+    const context = this.#canvas.getContext("2d");
+    context.setTransform(1, 0, 0, 1, 0, 0);
+    return context.isPointInPath(this.#outline, x, y);
+  }
+
+  /** Draw the skin anew, as after another side was chosen. */
+  refresh() {
+    this.#skin = null;
+    this.draw();
+  }
+
   draw() {
     const { width, height } = this.#canvas;
     if (!width || !height) return;
@@ -90,8 +103,7 @@ export class LimbView {
     this.#canvas.height = Math.round(clientHeight * this.#ratio);
     const { left, right, top, bottom } = BOUNDS_MM;
     this.#scale = Math.min(clientWidth / (right - left), clientHeight / (top - bottom));
-    this.#skin = null;
-    this.draw();
+    this.refresh();
   }
 
   #drawSkin() {
@@ -101,7 +113,7 @@ export class LimbView {
     const context = picture.getContext("2d");
     context.scale(this.#ratio, this.#ratio);
     const place = (x, y) => this.toScreen(x, y);
-    const outline = smoothPath(OUTLINE_MM, place, true);
+    const outline = (this.#outline = smoothPath(OUTLINE_MM, place, true));
     this.#fillSkin(context, outline);
     context.save();
     context.clip(outline);

@@ -42,7 +42,6 @@ connection.addEventListener("events", ({ detail: { events, local } }) => {
     if (event.type === "UP" || event.type === "CANCEL") byId("force-now").textContent = "";
   }
 });
-connection.addEventListener("snapshot", ({ detail }) => marks.adopt(detail));
 connection.addEventListener("timing", ({ detail }) => {
   const now = performance.now();
   latency.add("sent", "#4ade9c", now, detail.sentMs);

@@ -35,15 +35,6 @@ export class TouchMarks {
     this.#pointers.set(event.pointerId, pointer);
   }
 
-  /** Show the pointers that the server already has open. */
-  adopt(events) {
-    this.#pointers.clear();
-    for (const event of events) {
-      const touching = event.downTimeMs !== null && !["UP", "CANCEL", "CLICK", "DOUBLE_CLICK", "FLING"].includes(event.type);
-      this.#pointers.set(event.pointerId, { event, touching, trail: [] });
-    }
-  }
-
   /** Draw what belongs on this side of this host's limb. */
   paint(view, context, now) {
     const here = (event) => hostOf(event) === view.host && onPalmSide(event.surface) === (view.side === "palm");

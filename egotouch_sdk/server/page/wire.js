@@ -57,7 +57,6 @@ const READERS = {
     inputTtlMs: raw.inputTtlMs ?? 0,
     features: raw.features ?? [],
     settings: { forceEnterN: raw.settings?.forceEnterN ?? 0, forceMaxN: raw.settings?.forceMaxN ?? 3.5 },
-    snapshot: (raw.snapshot?.pointers ?? []).map((event) => readEvent(event)),
     token: raw.token ?? null,
   }),
   batch: (raw) => ({
@@ -66,7 +65,6 @@ const READERS = {
     sentMs: milliseconds(raw.sentNs ?? "0"),
     events: (raw.events ?? []).map((event) => readEvent(event, raw.late ?? false)),
   }),
-  snapshot: (raw) => (raw.pointers ?? []).map((event) => readEvent(event)),
   heartbeat: (raw) => ({ activeContacts: raw.activeContacts ?? 0 }),
   clockReply: (raw) => ({
     clientSendMs: milliseconds(raw.clientSendNs ?? "0"),

@@ -1,0 +1,121 @@
+// The fingers that mouse, pen, touch screen and keys play on the drawn limb, ready to be sent.
+
+import { FINGERS } from "./vocabulary.js";
+
+/** A lifted touch hovers this long before its finger leaves, so that it ends with UP instead of a lost hand. */
+const LINGER_MS = 350;
+/** Where the second finger is put while Shift is held: sideways from the first, in millimetres of the picture. */
+const BESIDE_MM = 24;
+const FORCE_MAX_N = 3.5;
+
+export class PlayedFingers {
+  #fingers = new Map(); // DOM pointer id -> {id, finger, xMm, yMm, down, pen, gone}
+  #settings;
+  #view;
+
+  /** `settings()` gives `{finger, forceN, pitchRad, yawRad, hoverMm, hoverOnly, deviceForce}`. */
+  constructor(view, settings) {
+    this.#view = view;
+    this.#settings = settings;
+  }
+
+  /** Follow a DOM pointer; `down` while it presses. Off the skin a finger lifts. */
+  move(pointer, { down, now, shift = false }) {
+    const [xMm, yMm] = this.#view.toMm(pointer.x, pointer.y);
+    const onSkin = this.#view.isOnSkin(pointer.x, pointer.y);
+    const known = this.#fingers.get(pointer.id);
+    if (!known && !onSkin) return;
+    const finger = known?.finger ?? this.#free();
+    if (!finger) return;
+    this.#fingers.set(pointer.id, { id: known?.id ?? this.#freeId(), finger, xMm, yMm, down: down && onSkin, pen: pointer.pen, shift, gone: null });
+    if (!onSkin && !down) this.leave(pointer.id, now);
+  }
+
+  /** A DOM pointer has lifted or gone out of the picture: its finger hovers a moment, then leaves. */
+  leave(pointerId, now) {
+    const finger = this.#fingers.get(pointerId);
+    if (finger && finger.gone === null) Object.assign(finger, { down: false, gone: now + LINGER_MS });
+  }
+
+  /** Take the hand away at once: what touches is cancelled by the server, as when a camera loses a hand. */
+  vanish() {
+    this.#fingers.clear();
+  }
+
+  /** The chosen finger has changed: those that hover become it. */
+  choose() {
+    const hovering = [...this.#fingers.entries()].filter(([, finger]) => !finger.down);
+    for (const [key] of hovering) this.#fingers.delete(key);
+    for (const [key, finger] of hovering) this.#fingers.set(key, { ...finger, finger: this.#free() });
+  }
+
+  /** What is played at `now`, as SimulatedPointer fields with short enum names. */
+  at(now) {
+    const settings = this.#settings();
+    const played = [];
+    for (const [key, finger] of this.#fingers) {
+      if (finger.gone !== null && now >= finger.gone) {
+        this.#fingers.delete(key);
+        continue;
+      }
+      played.push(this.#place(finger, settings));
+      if (finger.shift) played.push(...this.#second(finger, settings));
+    }
+    return played;
+  }
+
+  #place({ id, finger, xMm, yMm, down, pen }, settings) {
+    const touching = down && !settings.hoverOnly;
+    const device = settings.deviceForce && pen ? pen : {};
+    return {
+      id,
+      finger,
+      surface: this.#view.surfaceAt(yMm),
+      xMm,
+      yMm,
+      hoverMm: touching ? 0 : settings.hoverMm,
+      forceN: touching ? Math.min(device.forceN ?? settings.forceN, FORCE_MAX_N) : 0,
+      pitchRad: device.pitchRad ?? settings.pitchRad,
+      yawRad: device.yawRad ?? settings.yawRad,
+    };
+  }
+
+  #second(first, settings) {
+    const finger = this.#order().find((candidate) => !this.#taken(candidate));
+    if (!finger) return [];
+    const beside = { ...first, id: first.id + 100, finger, xMm: first.xMm + BESIDE_MM };
+    return [this.#place(beside, settings)];
+  }
+
+  #taken(finger) {
+    return [...this.#fingers.values()].some((played) => played.finger === finger);
+  }
+
+  /** The chosen finger, its neighbours, the rest. */
+  #order() {
+    const chosen = FINGERS.indexOf(this.#settings().finger);
+    return [...FINGERS].sort((a, b) => Math.abs(FINGERS.indexOf(a) - chosen) - Math.abs(FINGERS.indexOf(b) - chosen));
+  }
+
+  #free() {
+    return this.#order().find((finger) => !this.#taken(finger)) ?? null;
+  }
+
+  #freeId() {
+    const taken = new Set([...this.#fingers.values()].map((finger) => finger.id));
+    let id = 1;
+    while (taken.has(id)) id += 1;
+    return id;
+  }
+}
+
+/** Force and angles of a pen, from a DOM PointerEvent; null for what has no pressure of its own. */
+export function penOf(event, view) {
+  if (event.pointerType !== "pen") return null;
+  const pen = { forceN: event.pressure * FORCE_MAX_N };
+  const [altitude, azimuth] = [event.altitudeAngle, event.azimuthAngle];
+  if (altitude === undefined || altitude >= Math.PI / 2 - 0.01) return pen; // upright or without tilt: the sliders hold
+  // A pen leans away from where it points: azimuth is 0 along the picture's +x and grows clockwise.
+  const [right, up] = [-Math.cos(azimuth), Math.sin(azimuth)];
+  return { ...pen, pitchRad: altitude, yawRad: Math.atan2(right * view.thumbwards, up) };
+}

@@ -1,0 +1,85 @@
+// The simulator: the user's pointer is the finger; what the server makes of it comes back over the same connection.
+
+import { access, askWhenWanted, keepToken } from "./access.js";
+import { Connection, sameOrigin } from "./connection.js";
+import { Controls } from "./controls.js";
+import { EventLog } from "./event_log.js";
+import { playWith } from "./limb_input.js";
+import { LimbView } from "./limb_view.js";
+import { PlayedFingers } from "./played_fingers.js";
+import { Plot } from "./plot.js";
+import { PointerSender } from "./sender.js";
+import { showStatus } from "./status_bar.js";
+import { paintFinger, TouchMarks } from "./touch_marks.js";
+import { FINGER_COLOURS, words } from "./vocabulary.js";
+
+const SIMULATOR = "simulator";
+const byId = (id) => document.getElementById(id);
+
+const connection = new Connection({ url: sameOrigin(), client: "simulator", subscribe: { status: true }, access, keepToken });
+const marks = new TouchMarks();
+let played = [];
+const view = new LimbView(byId("limb"), "palm", (limb, context) => {
+  marks.paint(limb, context, performance.now());
+  for (const pointer of played) paintFinger(limb, context, pointer, 0.18);
+});
+const fingers = new PlayedFingers(view, () => controls.settings);
+const controls = new Controls(view, () => fingersChanged());
+const sender = new PointerSender(connection);
+const log = new EventLog(byId("log"), byId("filters"));
+const force = new Plot(byId("force-plot"), { top: 2, unit: "N" });
+
+function fingersChanged() {
+  fingers.choose();
+  view.refresh();
+}
+
+connection.addEventListener("events", ({ detail: { events, local } }) => {
+  const now = performance.now();
+  log.add(events, local);
+  for (const event of events) {
+    if (event.late) continue;
+    marks.apply(event, now);
+    const ended = event.type === "UP" || event.type === "CANCEL";
+    if (!ended && event.type !== "DOWN" && event.type !== "MOVE") continue;
+    force.add(event.pointerId, FINGER_COLOURS[event.finger], now, ended ? null : event.forceN);
+    byId("force-now").textContent = ended ? "" : `${event.forceN.toFixed(2)} N`;
+  }
+});
+connection.addEventListener("welcome", ({ detail: { features, settings } }) => {
+  if (settings.forceEnterN) force.level = { value: settings.forceEnterN, name: "onForce" };
+  byId("notice").hidden = features.includes(SIMULATOR);
+  byId("notice").textContent = "This server plays another source. To touch here, start it with: egotouch simulate";
+});
+byId("clear").addEventListener("click", () => {
+  log.clear();
+  force.clear();
+});
+
+function describe(pointers) {
+  if (!pointers.length) return "Press on the skin.";
+  return pointers
+    .map(({ finger, surface, xMm, yMm, hoverMm, forceN }) => {
+      const how = hoverMm === 0 ? `${forceN.toFixed(1)} N` : `hovers at ${hoverMm} mm`;
+      return `${words(finger)}: ${words(surface)}, x ${xMm.toFixed(0)}, y ${yMm.toFixed(0)} mm, ${how}`;
+    })
+    .join(" · ");
+}
+
+function frame(now) {
+  played = fingers.at(performance.now());
+  sender.offer(played, view.host, now);
+  byId("place").textContent = describe(played);
+  view.draw();
+  force.draw(now);
+  requestAnimationFrame(frame);
+}
+
+showStatus(connection);
+askWhenWanted(connection, byId("access"));
+playWith(view, fingers, controls);
+connection.start();
+requestAnimationFrame(frame);
+
+/** For the browser's console and for tests. */
+globalThis.egotouch = { connection, view, marks, fingers };
