@@ -10,6 +10,11 @@ def now_ns() -> int:
     return time.monotonic_ns()
 
 
+def unix_ms() -> int:
+    """Milliseconds since 1970, to date a file with and nothing else."""
+    return time.time_ns() // 1_000_000
+
+
 class Pacer:
     """Holds a replay back so that each frame appears at its presentation time."""
 
