@@ -1,29 +1,33 @@
-"""An app with a camera of its own: one thread pushes frames, another gets touch events.
+"""An app with a camera of its own: one thread pushes frames, listeners get touch events.
 
 python examples/push_frames.py VIDEO     the video stands for the app's camera
 """
 
 import sys
+import time
 from threading import Thread
 
-from egotouch_sdk import EventType, PushSource, TouchPipeline, open_source
+from egotouch_sdk import EgoTouch, PushSource, TouchEvent, open_source
 
 
 def camera_thread(camera: PushSource, video: str) -> None:
     with open_source(video) as frames:
         for frame in frames:
-            camera.push(frame.image, frame.timestamp_ns)  # BGR, uint8, (height, width, 3)
+            time.sleep(1 / (frames.fps or 30))
+            camera.push(frame.image, frame.timestamp_ns)  # BGR, uint8, (height, width, 3), stamped at capture
+            pushed.append(frame.index)
     camera.close()
 
 
+pushed: list[int] = []
 camera = PushSource()  # keeps the newest frame only: touches never lag behind
-Thread(target=camera_thread, args=(camera, sys.argv[1])).start()
+with EgoTouch(camera) as et:
 
-pipeline = TouchPipeline()
-taken = 0
-for frame in camera:
-    taken += 1
-    for event in pipeline.process(frame).events:
-        if event.type is EventType.DOWN:
-            print(f"{event.hand} {event.finger} touches")
-print(f"{taken} of {frame.index + 1} frames were taken in time")
+    @et.onTouchDown
+    def touch(event: TouchEvent) -> None:
+        print(f"{event.hand} {event.finger} touches the {event.surface}")
+
+    et.start()
+    Thread(target=camera_thread, args=(camera, sys.argv[1])).start()
+    et.run()
+print(f"{et.stats.frames} of {len(pushed)} frames were taken in time")

@@ -63,12 +63,12 @@ class FunctionSubscription(Subscription, Generic[EventT, ResultT]):
 
     def __init__(self, registry: Registry, function: Callable[[EventT], ResultT]) -> None:
         super().__init__(registry)
-        self._function = function
+        self.__wrapped__ = function
         self.__doc__ = function.__doc__
 
     def __call__(self, event: EventT, /) -> ResultT:
         """Call the function."""
-        return self._function(event)
+        return self.__wrapped__(event)
 
 
 class Registry:
@@ -114,16 +114,24 @@ class Registry:
 def _checked(name: str, call: CallableT) -> CallableT:
     if not callable(call):
         raise ConfigError(f"{name} got {call!r}, which cannot be called", hint="Give a function that takes one event")
-    code = getattr(call, "__code__", None)
+    code = getattr(_plain(call), "__code__", None)
     if code is not None and code.co_flags & _COROUTINE_FLAG:
         raise ConfigError(f"{name} got the coroutine function {_name(call)}", hint="In asyncio use: async for event in et.events()")
     return call
 
 
 def _site(name: str, call: Callable[[Any], object]) -> str:
+    call = _plain(call)
     code = getattr(call, "__code__", None)
     where = f" ({code.co_filename}:{code.co_firstlineno})" if code is not None else ""
     return f"{name} of {_name(call)}{where}"
+
+
+def _plain(call: Callable[[Any], object]) -> Callable[[Any], object]:
+    """The function itself, where decorators are stacked on it."""
+    while isinstance(call, FunctionSubscription):
+        call = call.__wrapped__
+    return call
 
 
 def _name(call: Callable[[Any], object]) -> str:
