@@ -7,7 +7,7 @@ import json
 import sys
 import tempfile
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from egotouch_sdk.cli.options import Subparsers, add_command, add_threads_option, add_view_options, with_threads
 from egotouch_sdk.cli.output import EventPrinter, Progress, print_json
@@ -17,7 +17,7 @@ from egotouch_sdk.errors import SourceError
 from egotouch_sdk.touch_event import TouchEvent
 
 if TYPE_CHECKING:
-    from egotouch_sdk.evaluation.scoreboard import ClipTruth
+    from egotouch_sdk.evaluation.truth import ClipTruth
 
 ASSETS = Path(__file__).parent.parent / "assets"
 #: A demo that takes longer than its clip by this factor was not real time (our choice, room for start and end).
@@ -46,7 +46,8 @@ def demo(options: argparse.Namespace) -> int:
     """Play the clip, print its events and the scoreboard."""
     from egotouch_sdk.cli.main import EXIT_INTERRUPTED
     from egotouch_sdk.config import TouchConfig
-    from egotouch_sdk.evaluation.scoreboard import ClipTruth, score
+    from egotouch_sdk.evaluation.scoreboard import score
+    from egotouch_sdk.evaluation.truth import ClipTruth
     from egotouch_sdk.pipeline import TouchPipeline
     from egotouch_sdk.sources import VideoFileSource
 
@@ -66,7 +67,7 @@ def demo(options: argparse.Namespace) -> int:
         saved, views = _open_views(options, source.fps, truth)
         with views:
             outcome = play(source, pipeline, on_event, views, paced=not options.fast)
-    board = score(truth.until(outcome.last_timestamp_ns) if outcome.interrupted else truth, events)
+    board = score(truth.until(outcome.last_timestamp_ns) if outcome.interrupted else truth, events, pipeline.config.gestures)
     if options.json:
         print_json({"scoreboard": board.to_dict()})
     else:
@@ -95,12 +96,10 @@ def _open_views(options: argparse.Namespace, fps: float | None, truth: ClipTruth
     return saved, open_views(saved)
 
 
-def _print_scoreboard(board: dict[str, int | float | None]) -> None:
-    onset, force = board["onset_error_ms_median"], board["force_mae_n"]
-    print()
-    print(f"touches in the clip   {board['touches']:>5}")
-    print(f"found                 {board['found']:>5}")
-    print(f"missed                {board['missed']:>5}")
-    print(f"false                 {board['false']:>5}")
-    print(f"onset error, median   {'-' if onset is None else f'{onset:.0f} ms':>8}")
-    print(f"force error, mean     {'-' if force is None else f'{force:.2f} N':>8}")
+def _print_scoreboard(board: dict[str, Any]) -> None:
+    print(f"\n{'':<14}{'true':>6}{'found':>7}{'missed':>8}{'false':>7}")
+    for name, count in board["counts"].items():
+        print(f"{name.replace('_', ' '):<14}{count['true']:>6}{count['found']:>7}{count['missed']:>8}{count['false']:>7}")
+    onset, p95, force = board["onset_error_ms_median"], board["onset_error_ms_p95"], board["force_mae_n"]
+    print(f"onset error   {'-' if onset is None else f'{onset:.0f} ms median, {p95:.0f} ms p95'}")
+    print(f"force error   {'-' if force is None else f'{force:.2f} N mean'}")

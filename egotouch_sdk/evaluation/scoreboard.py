@@ -1,99 +1,62 @@
-"""Touch events against the ground truth of a clip. No I/O, no clock."""
+"""Events against the ground truth of a clip. No I/O, no clock."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
+from math import ceil
 from statistics import fmean, median
 from typing import Any
 
-from egotouch_sdk.errors import SourceError
+from egotouch_sdk.config import GestureConfig
+from egotouch_sdk.evaluation.truth import ClipTruth, Tip, TrueTouch
 from egotouch_sdk.touch_event import EventType, TouchEvent
 
-#: A predicted touch may miss a true one in time by this much and still count as the same touch (our choice, 3 frames at 30 fps).
+#: What is predicted may miss a true touch in time by this much and still belong to it (our choice, 3 frames at 30 fps).
 MATCH_SLACK_NS = 100_000_000
-
-Tip = tuple[str, str]
-
-
-@dataclass(frozen=True, slots=True)
-class TrueTouch:
-    """One touch of the ground truth: which fingertip (hand, finger), first and last touching frame's time."""
-
-    tip: Tip
-    start_ns: int
-    end_ns: int
+#: The gestures that are counted, and the event that stands for each.
+GESTURES: Mapping[str, EventType] = {
+    "click": EventType.CLICK,
+    "long_click": EventType.LONG_CLICK,
+    "drag": EventType.DRAG_START,
+    "force_press": EventType.FORCE_ENTER,
+}
 
 
 @dataclass(frozen=True, slots=True)
-class ClipTruth:
-    """Ground truth of a clip: its touches, and the force in newtons of every fingertip that touches, per frame number."""
+class Count:
+    """How often something truly happened, was found, was missed, and was reported without having happened."""
 
-    fps: float
-    touches: tuple[TrueTouch, ...]
-    force_n: Mapping[tuple[Tip, int], float]
-
-    @classmethod
-    def from_dict(cls, data: Mapping[str, Any]) -> ClipTruth:
-        """Read the truth format of the demo clip: `fps`, `frames` (one object per frame) and `touches`.
-
-        Raises `SourceError` naming what is missing.
-        """
-        try:
-            fps = float(data["fps"])
-            frames = {int(frame["frame"]): frame for frame in data["frames"]}
-
-            def tip(frame: int) -> Tip:
-                return str(frames[frame]["hand"]), str(frames[frame]["finger"])
-
-            def time_ns(frame: int) -> int:
-                return round(frame * 1e9 / fps)
-
-            touches = [
-                TrueTouch(tip(int(touch["start_frame"])), time_ns(int(touch["start_frame"])), time_ns(int(touch["end_frame"])))
-                for touch in data["touches"]
-            ]
-            force_n = {(tip(index), index): float(frame["force_n"]) for index, frame in frames.items() if frame["touching"]}
-        except (KeyError, TypeError, ValueError, ZeroDivisionError) as error:
-            raise SourceError(f"the ground truth has another form ({error!r})", hint="Compare it with assets/demo_truth.json") from error
-        return cls(fps, tuple(sorted(touches, key=lambda touch: touch.start_ns)), force_n)
-
-    def force_at_n(self, frame: int) -> float:
-        """The largest true force of any fingertip in a frame, 0 where nothing touches."""
-        return max((force_n for (_, touched), force_n in self.force_n.items() if touched == frame), default=0.0)
-
-    def until(self, end_ns: int) -> ClipTruth:
-        """The truth of a clip that was left at `end_ns`: touches that began by then."""
-        return ClipTruth(self.fps, tuple(touch for touch in self.touches if touch.start_ns <= end_ns), self.force_n)
+    true: int
+    found: int
+    missed: int
+    false: int
 
 
 @dataclass(frozen=True, slots=True)
 class Scoreboard:
     """How well the touches of a clip were found.
 
-    `found` true touches met by a predicted touch of the same fingertip, `missed` the others, `false` predicted touches without
-    a true one (a second prediction within one true touch counts here). `onset_error_ms_median` is the median absolute
-    difference of touch-down times of found touches, `force_mae_n` the mean absolute force error over frames in which both
-    truth and prediction touch; None where there is nothing to average.
+    `touches` counts a true touch as found when a predicted touch of the same fingertip meets it; a second one within it is false.
+    `gestures` counts each of `GESTURES`: true ones are what the recogniser makes of the true places and forces with the same
+    settings, found ones come within the true touch or up to 100 ms around it.
+    `onset_error_ms_median` and `_p95` are of the absolute difference of touch-down times of found touches; `force_mae_n` the mean
+    absolute force error over frames in which both truth and prediction touch; None where there is nothing to average.
     """
 
-    touches: int
-    found: int
-    missed: int
-    false: int
+    touches: Count
+    gestures: Mapping[str, Count]
     onset_error_ms_median: float | None
+    onset_error_ms_p95: float | None
     force_mae_n: float | None
 
     def to_dict(self) -> dict[str, Any]:
-        """The fields by name, errors rounded to 0.1 ms and 1 mN."""
-        onset, force = self.onset_error_ms_median, self.force_mae_n
+        """The counts by name, then the errors, rounded to 0.1 ms and 1 mN."""
         return {
-            "touches": self.touches,
-            "found": self.found,
-            "missed": self.missed,
-            "false": self.false,
-            "onset_error_ms_median": None if onset is None else round(onset, 1),
-            "force_mae_n": None if force is None else round(force, 3),
+            "counts": {name: asdict(count) for name, count in {"touch": self.touches, **self.gestures}.items()},
+            "onset_error_ms_median": _rounded(self.onset_error_ms_median, 1),
+            "onset_error_ms_p95": _rounded(self.onset_error_ms_p95, 1),
+            "force_mae_n": _rounded(self.force_mae_n, 3),
         }
 
 
@@ -104,8 +67,8 @@ class _Predicted:
     end_ns: int
 
 
-def score(truth: ClipTruth, events: Sequence[TouchEvent]) -> Scoreboard:
-    """Compare all events of one run, in order, with the truth of the clip; both start at time 0."""
+def score(truth: ClipTruth, events: Sequence[TouchEvent], config: GestureConfig | None = None) -> Scoreboard:
+    """Compare all events of one run, in order, with the truth of the clip; both start at time 0. `config` is that of the run."""
     predicted, forces = _predictions(events, truth.fps)
     free = list(predicted)
     onset_errors_ms: list[float] = []
@@ -115,15 +78,28 @@ def score(truth: ClipTruth, events: Sequence[TouchEvent]) -> Scoreboard:
             free.remove(match)
             onset_errors_ms.append(abs(match.start_ns - touch.start_ns) / 1e6)
     force_errors_n = [abs(truth.force_n[key] - force_n) for key, force_n in forces.items() if key in truth.force_n]
-    found = len(onset_errors_ms)
+    found, total = len(onset_errors_ms), len(truth.touches)
     return Scoreboard(
-        touches=len(truth.touches),
-        found=found,
-        missed=len(truth.touches) - found,
-        false=len(free),
+        touches=Count(total, found, total - found, len(free)),
+        gestures={name: _count(truth, events, kind, config or GestureConfig()) for name, kind in GESTURES.items()},
         onset_error_ms_median=median(onset_errors_ms) if onset_errors_ms else None,
+        onset_error_ms_p95=sorted(onset_errors_ms)[ceil(0.95 * found) - 1] if onset_errors_ms else None,
         force_mae_n=fmean(force_errors_n) if force_errors_n else None,
     )
+
+
+def _count(truth: ClipTruth, events: Iterable[TouchEvent], kind: EventType, config: GestureConfig) -> Count:
+    free = [event for event in events if event.type is kind]
+    true = found = 0
+    for touch in truth.touches:
+        for true_event in truth.events(touch, config):
+            if true_event.type is kind:
+                true += 1
+                near = [event for event in free if _meet(touch, _Predicted(_tip(event), event.timestamp_ns, event.timestamp_ns))]
+                if near:
+                    found += 1
+                    free.remove(min(near, key=lambda event: abs(event.timestamp_ns - true_event.timestamp_ns)))
+    return Count(true, found, true - found, len(free))
 
 
 def _predictions(events: Iterable[TouchEvent], fps: float) -> tuple[list[_Predicted], dict[tuple[Tip, int], float]]:
@@ -131,12 +107,11 @@ def _predictions(events: Iterable[TouchEvent], fps: float) -> tuple[list[_Predic
     down: dict[int, _Predicted] = {}
     forces: dict[tuple[Tip, int], float] = {}
     for event in events:
-        tip = (event.hand.value, event.finger.value)
         if event.type is EventType.DOWN:
-            down[event.pointer_id] = _Predicted(tip, event.timestamp_ns, event.timestamp_ns)
+            down[event.pointer_id] = _Predicted(_tip(event), event.timestamp_ns, event.timestamp_ns)
             touches.append(down[event.pointer_id])
         if event.type in (EventType.DOWN, EventType.MOVE):
-            forces[tip, round(event.timestamp_ns * fps / 1e9)] = event.force_n
+            forces[_tip(event), round(event.timestamp_ns * fps / 1e9)] = event.force_n
         if event.pointer_id in down:
             down[event.pointer_id].end_ns = event.timestamp_ns
         if event.type in (EventType.UP, EventType.CANCEL):
@@ -150,3 +125,11 @@ def _meet(touch: TrueTouch, predicted: _Predicted) -> bool:
         and predicted.start_ns <= touch.end_ns + MATCH_SLACK_NS
         and predicted.end_ns >= touch.start_ns - MATCH_SLACK_NS
     )
+
+
+def _tip(event: TouchEvent) -> Tip:
+    return event.hand.value, event.finger.value
+
+
+def _rounded(value: float | None, digits: int) -> float | None:
+    return None if value is None else round(value, digits)

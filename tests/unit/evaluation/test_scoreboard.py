@@ -2,8 +2,10 @@ from typing import Any
 
 import pytest
 
+from egotouch_sdk.config import GestureConfig
 from egotouch_sdk.errors import SourceError
-from egotouch_sdk.evaluation.scoreboard import ClipTruth, Scoreboard, score
+from egotouch_sdk.evaluation.scoreboard import Count, Scoreboard, score
+from egotouch_sdk.evaluation.truth import ClipTruth
 from egotouch_sdk.joints import Finger
 from egotouch_sdk.touch_event import EventType, TouchEvent
 from tests.support.events import make_event
@@ -41,50 +43,92 @@ def touch(start: int, end: int, force_n: float = 1.0, finger: Finger = Finger.IN
 
 def test_a_touch_is_found_late_with_a_known_force_error() -> None:
     board = score(truth_of((10, 20)), touch(12, 21, force_n=1.5))
-    assert board == Scoreboard(1, 1, 0, 0, pytest.approx(66.667, abs=0.001), pytest.approx(0.5))
+    assert board.touches == Count(1, 1, 0, 0)
+    assert board.onset_error_ms_median == board.onset_error_ms_p95 == pytest.approx(66.667, abs=0.001)
+    assert board.force_mae_n == pytest.approx(0.5)
 
 
 def test_the_onset_error_is_the_median_of_absolute_errors() -> None:
     events = [*touch(9, 20), *touch(44, 55), *touch(81, 95)]
     board = score(truth_of((10, 20), (40, 55), (80, 95)), events)
     assert board.onset_error_ms_median == pytest.approx(1000 / 30)
+    assert board.onset_error_ms_p95 == pytest.approx(4000 / 30)
 
 
 def test_nothing_predicted_is_all_missed() -> None:
-    assert score(truth_of((10, 20), (40, 50)), []) == Scoreboard(2, 0, 2, 0, None, None)
+    none = Count(0, 0, 0, 0)
+    gestures = {"click": Count(2, 0, 2, 0), "long_click": none, "drag": none, "force_press": none}
+    assert score(truth_of((10, 20), (40, 50)), []) == Scoreboard(Count(2, 0, 2, 0), gestures, None, None, None)
 
 
 def test_a_touch_where_there_is_none_is_false() -> None:
     board = score(truth_of((10, 20)), [*touch(10, 20), *touch(60, 70)])
-    assert (board.found, board.missed, board.false) == (1, 0, 1)
+    assert board.touches == Count(1, 1, 0, 1)
 
 
 def test_a_true_touch_broken_in_two_counts_once_and_the_rest_is_false() -> None:
     board = score(truth_of((10, 40)), [*touch(10, 20), *touch(25, 40)])
-    assert (board.found, board.missed, board.false) == (1, 0, 1)
+    assert board.touches == Count(1, 1, 0, 1)
 
 
 def test_one_long_touch_over_two_true_ones_finds_only_one() -> None:
     board = score(truth_of((10, 20), (30, 40)), touch(10, 40))
-    assert (board.found, board.missed, board.false) == (1, 1, 0)
+    assert board.touches == Count(2, 1, 1, 0)
 
 
 def test_the_wrong_finger_is_both_missed_and_false() -> None:
     board = score(truth_of((10, 20)), touch(10, 20, finger=Finger.MIDDLE))
-    assert (board.found, board.missed, board.false, board.force_mae_n) == (0, 1, 1, None)
+    assert (board.touches, board.force_mae_n) == (Count(1, 0, 1, 1), None)
 
 
 def test_a_cancelled_touch_was_still_found() -> None:
-    assert score(truth_of((10, 20)), touch(11, 15, last=EventType.CANCEL)).found == 1
+    assert score(truth_of((10, 20)), touch(11, 15, last=EventType.CANCEL)).touches.found == 1
 
 
 @pytest.mark.parametrize(("end", "found"), [(7, 1), (6, 0)])
 def test_a_touch_may_end_three_frames_early_and_no_more(end: int, found: int) -> None:
-    assert score(truth_of((10, 20)), touch(2, end)).found == found
+    assert score(truth_of((10, 20)), touch(2, end)).touches.found == found
 
 
 def test_a_clip_left_early_is_scored_on_what_had_begun() -> None:
-    assert score(truth_of((10, 20), (60, 70)).until(at_ns(30)), touch(10, 20)).missed == 0
+    assert score(truth_of((10, 20), (60, 70)).until(at_ns(30)), touch(10, 20)).touches.missed == 0
+
+
+def moving_truth(way_mm: float) -> ClipTruth:
+    """A touch from frame 10 to 30 that goes `way_mm` along the host at 2 px per mm, while the whole picture shifts."""
+
+    def frame(index: int) -> dict[str, Any]:
+        shift_px, share = 3.0 * index, min(max(index - 10, 0), 20) / 20
+        host = [[100.0 + shift_px, 400.0]] * 21
+        host[9] = [100.0 + shift_px, 240.0]
+        return {
+            "frame": index,
+            "touching": 10 <= index <= 30,
+            "force_n": 2.0 if 15 <= index <= 25 else 0.5,
+            "finger": "index",
+            "hand": "right",
+            "tip_px": [100.0 + shift_px, 300.0 - 2 * way_mm * share],
+            "px_per_mm": 2.0,
+            "landmarks_px": {"left": host},
+        }
+
+    return ClipTruth.from_dict({"fps": FPS, "frames": [frame(i) for i in range(60)], "touches": [{"start_frame": 10, "end_frame": 30}]})
+
+
+def test_a_held_true_touch_is_a_long_click_and_a_click_and_a_force_press() -> None:
+    events = [event(EventType.LONG_CLICK, 24), event(EventType.CLICK, 32), event(EventType.FORCE_ENTER, 16), event(EventType.CLICK, 50)]
+    gestures = score(moving_truth(0.0), events).gestures
+    one, none = Count(1, 1, 0, 0), Count(0, 0, 0, 0)
+    assert gestures == {"click": Count(1, 1, 0, 1), "long_click": one, "drag": none, "force_press": one}
+
+
+def test_a_true_touch_that_moves_on_its_host_is_a_drag() -> None:
+    gestures = score(moving_truth(30.0), [event(EventType.CLICK, 31), event(EventType.DRAG_START, 12)]).gestures
+    assert (gestures["click"], gestures["drag"], gestures["long_click"]) == (Count(0, 0, 0, 1), Count(1, 1, 0, 0), Count(0, 0, 0, 0))
+
+
+def test_the_settings_say_what_a_true_drag_is() -> None:
+    assert score(moving_truth(30.0), [], GestureConfig(touch_slop_mm=40.0)).gestures["drag"].true == 0
 
 
 def test_the_true_force_of_a_frame() -> None:
@@ -94,11 +138,9 @@ def test_the_true_force_of_a_frame() -> None:
 
 def test_the_dictionary_has_the_documented_keys() -> None:
     assert list(score(truth_of((10, 20)), touch(12, 21)).to_dict()) == [
-        "touches",
-        "found",
-        "missed",
-        "false",
+        "counts",
         "onset_error_ms_median",
+        "onset_error_ms_p95",
         "force_mae_n",
     ]
 
