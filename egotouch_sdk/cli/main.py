@@ -22,6 +22,7 @@ COMMANDS = (
     "egotouch_sdk.cli.demo",
     "egotouch_sdk.cli.run",
     "egotouch_sdk.cli.simulate",
+    "egotouch_sdk.cli.debug_events",
     "egotouch_sdk.cli.hands",
     "egotouch_sdk.cli.estimate",
     "egotouch_sdk.cli.bench",
