@@ -21,6 +21,8 @@ EXIT_INTERRUPTED = 130
 COMMANDS = (
     "egotouch_sdk.cli.demo",
     "egotouch_sdk.cli.run",
+    "egotouch_sdk.cli.record",
+    "egotouch_sdk.cli.replay",
     "egotouch_sdk.cli.simulate",
     "egotouch_sdk.cli.debug_events",
     "egotouch_sdk.cli.hands",
@@ -36,6 +38,7 @@ COMMANDS = (
 #: Import names of optional packages, by the extra that brings them.
 EXTRA_PACKAGES = {
     "debug": ("rich", "textual"),
+    "recording": ("lz4", "mcap", "zstandard"),
     "simulate": ("yaml",),
     "synthetic": ("av", "drjit", "mitsuba", "pygltflib", "scipy"),
     "train": ("lightning", "onnx", "torch"),

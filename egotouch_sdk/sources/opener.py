@@ -13,8 +13,9 @@ from egotouch_sdk.sources.video_file import VideoFileSource
 
 #: Files that are simulator scripts.
 SCRIPT_SUFFIXES = frozenset({".yaml", ".yml"})
+RECORDING_SUFFIX = ".mcap"
 
-_HINT = "Give a camera index (0), a URL, a video file, an image, a folder of images or a simulator script (.yaml)"
+_HINT = "Give a camera index (0), a URL, a video file, an image, a folder of images, a recording (.mcap) or a simulator script (.yaml)"
 
 
 def open_source(
@@ -22,7 +23,7 @@ def open_source(
 ) -> FrameSource | ObservationSource:
     """Open what `spec` names: a camera index (`0`), a device (`/dev/video0`), a URL, a video, an image or a folder of images.
 
-    A simulator script (`.yaml`, `.yml`) opens as a source of observations.
+    A recording (`.mcap`) and a simulator script (`.yaml`, `.yml`) open as sources of observations.
     `fps` is the rate of a folder (default 30), replaces the times of a video and the rate of a script, and is asked of a camera;
     `width_px` and `height_px` are asked of a camera and ignored elsewhere. Raises `SourceError` when there is nothing to read.
     """
@@ -38,6 +39,10 @@ def open_source(
         from egotouch_sdk.simulator import ScriptSource
 
         return ScriptSource(path, fps=fps)
+    if path.is_file() and path.suffix.lower() == RECORDING_SUFFIX:
+        from egotouch_sdk.recording import RecordingSource
+
+        return RecordingSource(path)
     if path.is_file():
         return VideoFileSource(path, fps=fps)
     raise SourceError(f"no such source: {text}", hint=_HINT)

@@ -1,0 +1,105 @@
+"""`egotouch replay`: the events of a recording again, compared with those that were recorded."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Iterable
+from difflib import unified_diff
+from itertools import chain
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from egotouch_sdk.cli.options import Subparsers, add_command
+from egotouch_sdk.cli.output import event_line, print_json
+
+if TYPE_CHECKING:
+    from egotouch_sdk.config import TouchConfig
+    from egotouch_sdk.recording import Header
+    from egotouch_sdk.replay import ReplayedFrame
+    from egotouch_sdk.touch_event import TouchEvent
+
+EXAMPLES = """\
+  egotouch replay session.mcap                       run the event engine again; exit code 1 if any event differs
+  egotouch replay session.mcap --json                the events of now, one JSON object each
+  egotouch replay session.mcap --config mine.json    what other settings would have made of it, as a diff
+"""
+
+
+def add_parser(subparsers: Subparsers) -> None:
+    """Add `replay` to the command line."""
+    parser = add_command(subparsers, "replay", "run the event engine over a recording again and compare the events", EXAMPLES)
+    parser.add_argument("file", type=Path, metavar="FILE.mcap", help="a recording")
+    parser.add_argument("--json", action="store_true", help="one JSON object per event of the replay on stdout")
+    parser.add_argument("--config", type=Path, metavar="FILE", help="settings that replace recorded ones; the differences are shown")
+    parser.set_defaults(handler=replay)
+
+
+def replay(options: argparse.Namespace) -> int:
+    """Replay the file; 0 when every event is the same or other settings were asked for."""
+    from egotouch_sdk.recording import RecordingSource
+    from egotouch_sdk.replay import replay as replayed_frames
+
+    recording = RecordingSource(options.file)
+    config = _changed(recording.config, options.config) if options.config else None
+    frames = list(replayed_frames(recording, config))
+    recorded, replayed = _events(frame.recorded for frame in frames), _events(frame.replayed for frame in frames)
+    if options.json:
+        for event in replayed:
+            print_json(event.to_dict())
+    elif config:
+        for line in unified_diff(_lines(recorded), _lines(replayed), "recorded", "replayed", n=0, lineterm=""):
+            print(line)
+    different = next((frame for frame in frames if not frame.is_identical), None)
+    sys.stderr.write(f"{len(replayed)} events, {_verdict(recorded, different)}\n")
+    if different is None or config:
+        return 0
+    sys.stderr.write("".join(f"  {line}\n" for line in [*_difference(different), *_circumstances(recording.header)]))
+    return 1
+
+
+def _changed(config: TouchConfig, path: Path) -> TouchConfig:
+    from egotouch_sdk.config_layers import merged, read_file
+
+    return type(config)(**merged([config.model_dump(), read_file(path).settings]))
+
+
+def _events(parts: Iterable[tuple[TouchEvent, ...]]) -> list[TouchEvent]:
+    return list(chain.from_iterable(parts))
+
+
+def _lines(events: list[TouchEvent]) -> list[str]:
+    return [event_line(event) for event in events if event.type.is_edge]
+
+
+def _verdict(recorded: list[TouchEvent], different: ReplayedFrame | None) -> str:
+    return "identical" if different is None else f"different from the {len(recorded)} recorded"
+
+
+def _difference(frame: ReplayedFrame) -> list[str]:
+    where = "at the end of the recording" if frame.index is None else f"in frame {frame.index}"
+    changes = list(unified_diff(_details(frame.recorded), _details(frame.replayed), n=0, lineterm=""))[2:]
+    return [f"first difference {where}, {frame.timestamp_ns / 1e9:.3f} s:", *(line for line in changes if not line.startswith("@@"))]
+
+
+def _details(events: tuple[TouchEvent, ...]) -> list[str]:
+    return [" ".join(f"{name}={value}" for name, value in event.to_dict().items()) for event in events]
+
+
+def _circumstances(header: Header) -> list[str]:
+    """What could explain a difference: version, settings and models, then and now."""
+    from egotouch_sdk import __version__
+    from egotouch_sdk.errors import ModelError
+    from egotouch_sdk.recording import model_sha256
+
+    lines = [f"recorded by egotouch {header.sdk_version}, replayed by egotouch {__version__}, with the recorded settings"]
+    try:
+        installed = model_sha256(header.config)
+    except ModelError:
+        installed = {}
+    lines += [
+        f"recorded with another {name}: {digest[:12]}, installed is {installed.get(name, 'none')[:12]} (a replay does not use it)"
+        for name, digest in header.model_sha256.items()
+        if installed.get(name) != digest
+    ]
+    return lines
