@@ -31,7 +31,7 @@ def add_command(subparsers: Subparsers, name: str, summary: str, examples: str) 
 
 def add_source_options(parser: argparse.ArgumentParser) -> None:
     """SOURCE, --fps and --size."""
-    parser.add_argument("source", metavar="SOURCE", help="camera index (0), URL, video, image, folder of images, recording (.mcap) or script (.yaml)")
+    parser.add_argument("source", metavar="SOURCE", help="camera index (0), URL, video, image, folder of images, recording or script")
     parser.add_argument("--fps", type=positive_float, help="rate of a folder (default 30), in place of a video's own, or asked of a camera")
     parser.add_argument("--size", type=size_px, metavar="WxH", help="image size to ask of a camera, for example 1280x720")
 
