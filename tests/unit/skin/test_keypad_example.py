@@ -1,0 +1,63 @@
+"""The keypad example dials what simulated fingers tap, drawn and undrawn."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[3]
+EXAMPLE = ROOT / "examples" / "skin_keypad"
+ENVIRONMENT = {**os.environ, "PYTHONPATH": str(ROOT)}
+
+
+def dial(*arguments: str) -> list[str]:
+    """The lines that the app prints to a file."""
+    command = [sys.executable, str(EXAMPLE / "app.py"), *arguments, "--fast"]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False, env=ENVIRONMENT)
+    assert (done.returncode, done.stderr) == (0, "")
+    return done.stdout.split("\n")
+
+
+def key_places(surface: str, host: str, *keys: str) -> list[list[float]]:
+    sys.path.insert(0, str(EXAMPLE))
+    try:
+        from layout import LAYOUTS
+    finally:
+        sys.path.remove(str(EXAMPLE))
+    regions = {view.name: view.region for view in LAYOUTS[surface].views}
+    return [[round(value, 1) for value in regions[f"{host}/{key}"].centre_mm] for key in keys]
+
+
+@pytest.fixture(autouse=True)
+def _needs_yaml() -> None:
+    pytest.importorskip("yaml")
+
+
+def test_a_number_is_dialled_on_the_palm() -> None:
+    lines = dial(str(EXAMPLE / "dial.yaml"))
+    assert lines == ["+", "+4", "+49", "+493", "+4930", "+49300", "+4930", "+49301", "Dialled +49301", ""]
+
+
+def test_a_number_is_dialled_on_the_forearm() -> None:
+    assert dial(str(EXAMPLE / "dial_forearm.yaml"), "--surface", "inner_forearm") == ["1", "11", "112", "Dialled 112", ""]
+
+
+@pytest.mark.parametrize("surface", ["palm", "back_of_hand", "inner_forearm", "outer_forearm"])
+@pytest.mark.parametrize("host", ["left", "right"])
+def test_every_limb_can_be_dialled_on(surface: str, host: str, tmp_path: Path) -> None:
+    keys = "159*0#"
+    taps = "\n".join(f"  - tap: {{at: {place}}}" for place in key_places(surface, host, *keys))
+    script = tmp_path / "taps.yaml"
+    script.write_text(f"hand: {'right' if host == 'left' else 'left'}\nsurface: {surface}\nacts:\n{taps}\n")
+    assert dial(str(script), "--surface", surface)[-2] == f"Dialled {keys}"
+
+
+def test_a_wrong_source_is_said_in_one_line() -> None:
+    command = [sys.executable, str(EXAMPLE / "app.py"), "nothing.mp4"]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False, env=ENVIRONMENT)
+    assert done.returncode == 1
+    assert done.stderr.startswith("app.py: no such source: nothing.mp4.") and done.stderr.count("\n") == 1
