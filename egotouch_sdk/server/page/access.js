@@ -2,7 +2,7 @@
 // send) and in sessionStorage.
 
 const KEY = "egotouch.token";
-let pairingCode = takeFromFragment();
+let pairing_code = takeFromFragment();
 
 function takeFromFragment() {
   const given = new URLSearchParams(location.hash.slice(1));
@@ -15,13 +15,13 @@ function takeFromFragment() {
 
 /** What the next Hello should carry. */
 export function access() {
-  return { token: pairingCode ? null : sessionStorage.getItem(KEY), pairingCode };
+  return { token: pairing_code ? null : sessionStorage.getItem(KEY), pairing_code };
 }
 
 /** Keep the token that a pairing code was exchanged for. */
 export function keepToken(token) {
   sessionStorage.setItem(KEY, token);
-  pairingCode = "";
+  pairing_code = "";
 }
 
 /** Ask for a code whenever the server wants one; `dialog` is the page's <dialog> with a form inside. */
@@ -29,7 +29,7 @@ export function askWhenWanted(connection, dialog) {
   const [form, field, why] = [dialog.querySelector("form"), dialog.querySelector("input"), dialog.querySelector("[data-why]")];
   connection.addEventListener("access", ({ detail }) => {
     sessionStorage.removeItem(KEY);
-    pairingCode = "";
+    pairing_code = "";
     why.textContent = detail.reason;
     field.value = "";
     if (!dialog.open) dialog.showModal();
@@ -38,7 +38,7 @@ export function askWhenWanted(connection, dialog) {
   form.addEventListener("submit", (submitted) => {
     submitted.preventDefault();
     const given = field.value.trim();
-    if (/^\d{6}$/.test(given)) pairingCode = given;
+    if (/^\d{6}$/.test(given)) pairing_code = given;
     else sessionStorage.setItem(KEY, given);
     dialog.close();
     connection.start();

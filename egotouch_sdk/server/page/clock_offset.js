@@ -11,10 +11,10 @@ export class ClockOffset {
   }
 
   /** Take one reply, received at `nowMs` of this page's clock. */
-  add({ clientSendMs, serverReceiveMs, serverSendMs }, nowMs) {
-    const roundTripMs = nowMs - clientSendMs - (serverSendMs - serverReceiveMs);
+  add({ client_send_ms, server_receive_ms, server_send_ms }, nowMs) {
+    const roundTripMs = nowMs - client_send_ms - (server_send_ms - server_receive_ms);
     if (!(roundTripMs >= 0)) return;
-    this.#probes.push({ roundTripMs, offsetMs: (serverReceiveMs - clientSendMs + serverSendMs - nowMs) / 2 });
+    this.#probes.push({ roundTripMs, offsetMs: (server_receive_ms - client_send_ms + server_send_ms - nowMs) / 2 });
     if (this.#probes.length > KEPT) this.#probes.shift();
   }
 

@@ -5,7 +5,7 @@
 //   access   {reason}            the server wants a token or pairing code; call `start` again once there is one
 //   welcome  the Welcome         settings, features, epoch
 //   events   {events, local}     what happened, in order; `local` is true for CANCELs made here
-//   timing   {ageMs, sentMs, uncertaintyMs}   capture to arrival, capture to sending, error bound of the clock
+//   timing   {ageMs, sendMs, uncertaintyMs}   capture to arrival, capture to sending, error bound of the clock
 //   status, hands, warning       as the server sent them
 
 import { closeAdvice } from "./close_codes.js";
@@ -46,7 +46,7 @@ export class Connection extends EventTarget {
   clock = new ClockOffset();
   pointers = new OpenPointers();
 
-  /** `url`, `client` (name in the Hello), `subscribe` (fields of Subscribe) and `access()`, which gives `{token, pairingCode}`. */
+  /** `url`, `client` (name in the Hello), `subscribe` (fields of Subscribe) and `access()`, which gives `{token, pairing_code}`. */
   constructor(options) {
     super();
     this.#options = { subscribe: {}, access: () => ({}), keepToken: () => {}, ...options };
@@ -95,9 +95,9 @@ export class Connection extends EventTarget {
 
   #hello() {
     const hello = { client: this.#options.client, version: "1", subscribe: this.#options.subscribe };
-    const { token, pairingCode } = this.#options.access();
+    const { token, pairing_code } = this.#options.access();
     if (token) hello.token = token;
-    else if (pairingCode) hello.pairingCode = pairingCode;
+    else if (pairing_code) hello.pairing_code = pairing_code;
     if (this.#resume) hello.resume = this.#resume;
     return hello;
   }
@@ -116,7 +116,7 @@ export class Connection extends EventTarget {
     if (message.kind === "welcome") this.#welcomed(message.body);
     if (this.#welcome) this.#resume = { epoch: this.#welcome.epoch, offset: message.offset };
     if (message.kind === "batch") this.#batch(message.body, now);
-    else if (message.kind === "clockReply") this.clock.add(message.body, now);
+    else if (message.kind === "clock_reply") this.clock.add(message.body, now);
     else if (message.kind === "status" || message.kind === "hands" || message.kind === "warning") this.#emit(message.kind, message.body);
   }
 
@@ -142,7 +142,7 @@ export class Connection extends EventTarget {
     const serverNow = this.clock.toServerMs(now);
     if (serverNow !== null && !batch.events.some((event) => event.late)) {
       const { uncertaintyMs } = this.clock;
-      this.#emit("timing", { ageMs: serverNow - batch.timestampMs, sentMs: batch.sentMs - batch.timestampMs, uncertaintyMs });
+      this.#emit("timing", { ageMs: serverNow - batch.timestamp_ms, sendMs: batch.sent_ms - batch.timestamp_ms, uncertaintyMs });
     }
   }
 
@@ -153,7 +153,7 @@ export class Connection extends EventTarget {
       return;
     }
     const silenceMs = now - this.#heard;
-    const idleMs = SILENT_HEARTBEATS * this.#welcome.heartbeatMs;
+    const idleMs = SILENT_HEARTBEATS * this.#welcome.heartbeat_ms;
     if (silenceMs > 2 * idleMs) {
       this.#abandon("The server has fallen silent.");
     } else if (silenceMs > (this.pointers.contacts ? SILENCE_WHILE_TOUCHING_MS : idleMs)) {
@@ -161,7 +161,7 @@ export class Connection extends EventTarget {
       this.#change("stale", "No word from the server; touches were cancelled.");
     }
     const probeEveryMs = this.#probes < PROBES_AT_START ? 2 * WATCH_EVERY_MS : PROBE_EVERY_MS;
-    if (now - this.#probed >= probeEveryMs && this.send({ clockRequest: { clientSendNs: nanoseconds(performance.now()) } })) {
+    if (now - this.#probed >= probeEveryMs && this.send({ clock_request: { client_send_ns: nanoseconds(performance.now()) } })) {
       this.#probed = now;
       this.#probes += 1;
     }

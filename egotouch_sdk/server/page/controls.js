@@ -41,10 +41,10 @@ export class Controls {
     const value = (id) => Number(this.#byId(id).value);
     return {
       finger: this.#finger,
-      forceN: value("force"),
-      pitchRad: value("pitch") * DEGREE,
-      yawRad: value("yaw") * DEGREE,
-      hoverMm: value("hover"),
+      force_n: value("force"),
+      pitch_rad: value("pitch") * DEGREE,
+      yaw_rad: value("yaw") * DEGREE,
+      hover_mm: value("hover"),
       hoverOnly: this.#byId("hover-only").checked,
       deviceForce: this.#byId("device-force").checked,
     };

@@ -20,7 +20,8 @@ export class EventLog {
 
   /** List events in order. */
   add(events, local) {
-    const rows = events.map((event) => this.#row(event, local)).reverse();
+    const listed = this.#hidden.has(STREAM) ? events.filter((event) => !isStream(event.type)) : events;
+    const rows = listed.map((event) => this.#row(event, local)).reverse();
     this.#list.prepend(...rows);
     while (this.#list.childElementCount > KEPT) this.#list.lastElementChild.remove();
   }
@@ -48,15 +49,15 @@ export class EventLog {
   }
 
   #row(event, local) {
-    this.#first ??= event.timestampMs;
+    this.#first ??= event.timestamp_ms;
     const row = document.createElement("li");
     row.className = `group-${GROUP_OF[event.type]}${isStream(event.type) ? ` group-${STREAM}` : ""}${local || event.late ? " apart" : ""}`;
     row.append(
-      cell("when", `${((event.timestampMs - this.#first) / 1000).toFixed(2)} s`),
+      cell("when", `${((event.timestamp_ms - this.#first) / 1000).toFixed(2)} s`),
       cell("what", words(event.type)),
       cell("who", `${words(event.hand)} ${words(event.finger)}`),
-      cell("where", `${words(event.surface)} ${event.xMm.toFixed(0)}, ${event.yMm.toFixed(0)} mm`),
       cell("more", remarks(event, local)),
+      cell("where", `${words(event.surface)} · x ${event.x_mm.toFixed(0)}, y ${event.y_mm.toFixed(0)} mm`),
     );
     return row;
   }
@@ -64,8 +65,8 @@ export class EventLog {
 
 function remarks(event, local) {
   const said = [];
-  if (event.forceN > 0) said.push(`${event.forceN.toFixed(2)} N`);
-  if (event.clickCount > 1) said.push(`× ${event.clickCount}`);
+  if (event.force_n > 0) said.push(`${event.force_n.toFixed(2)} N`);
+  if (event.click_count > 1) said.push(`× ${event.click_count}`);
   if (event.reason) said.push(words(event.reason));
   if (local) said.push("by this page");
   if (event.late) said.push("late, must not act");

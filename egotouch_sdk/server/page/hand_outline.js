@@ -17,8 +17,8 @@ const THUMB = { base: [45, 42], deg: 38, length: 56, halfBase: 12.5, halfTip: 9.
 const JOINTS = [0.25, 0.52, 0.76];
 const WEB = 0.2;
 
-const ULNAR_MM = [[-38, -FOREARM_MM], [-37, -190], [-34, -120], [-30, -60], [-28, -20], [-30, 2], [-38, 22], [-43, 42], [-45.5, 58]];
-const RADIAL_MM = [[36, 10], [29, -14], [30, -60], [36, -120], [41, -190], [43, -FOREARM_MM]];
+const ULNAR_MM = [[-38.5, -FOREARM_MM - 25], [-38, -FOREARM_MM], [-37, -190], [-34, -120], [-30, -60], [-28, -20], [-30, 2], [-38, 22], [-43, 42], [-45.5, 58]];
+const RADIAL_MM = [[36, 10], [29, -14], [30, -60], [36, -120], [41, -190], [43, -FOREARM_MM], [43.5, -FOREARM_MM - 25]];
 
 function along({ base, deg, length }, share, sideways) {
   const [sin, cos] = [Math.sin((deg * Math.PI) / 180), Math.cos((deg * Math.PI) / 180)];

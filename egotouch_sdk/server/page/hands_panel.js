@@ -13,7 +13,7 @@ export function showHands(connection, root = document) {
   connection.addEventListener("hands", ({ detail }) => {
     last = detail;
     panel.hidden = false;
-    note.textContent = `${detail.hands.length === 1 ? "1 hand" : `${detail.hands.length} hands`}, ${detail.widthPx} × ${detail.heightPx} px`;
+    note.textContent = `${detail.hands.length === 1 ? "1 hand" : `${detail.hands.length} hands`}, ${detail.width_px} × ${detail.height_px} px`;
     requestAnimationFrame(() => paint(canvas, last));
   });
   connection.addEventListener("welcome", ({ detail }) => {
@@ -34,23 +34,23 @@ function playVideo(video, connection) {
   next();
 }
 
-function paint(canvas, { widthPx, heightPx, hands }) {
+function paint(canvas, { width_px, height_px, hands }) {
   const ratio = Math.min(devicePixelRatio || 1, 2);
   canvas.width = Math.round(canvas.clientWidth * ratio);
-  canvas.height = Math.round((canvas.clientWidth * ratio * heightPx) / widthPx);
+  canvas.height = Math.round((canvas.clientWidth * ratio * height_px) / width_px);
   const context = canvas.getContext("2d");
-  const scale = canvas.width / widthPx;
+  const scale = canvas.width / width_px;
   context.lineWidth = 2 * ratio;
   context.lineCap = context.lineJoin = "round";
-  for (const { handedness, landmarksPx } of hands) {
-    const at = (joint) => [landmarksPx[3 * joint] * scale, landmarksPx[3 * joint + 1] * scale];
+  for (const { handedness, landmarks_px } of hands) {
+    const at = (joint) => [landmarks_px[3 * joint] * scale, landmarks_px[3 * joint + 1] * scale];
     context.strokeStyle = context.fillStyle = COLOURS[handedness];
     for (const bone of BONES) {
       context.beginPath();
       for (const joint of bone) context.lineTo(...at(joint));
       context.stroke();
     }
-    for (let joint = 0; joint < landmarksPx.length / 3; joint += 1) {
+    for (let joint = 0; joint < landmarks_px.length / 3; joint += 1) {
       context.beginPath();
       context.arc(...at(joint), 2.5 * ratio, 0, 2 * Math.PI);
       context.fill();

@@ -13,7 +13,7 @@ export function playWith(view, fingers, controls) {
   const pointerOf = (event) => ({ id: event.pointerId, x: event.offsetX, y: event.offsetY, pen: penOf(event, view) });
   const follow = (event) => fingers.move(pointerOf(event), { down: event.buttons !== 0, now: performance.now(), shift: event.shiftKey });
   canvas.addEventListener("pointerdown", (event) => {
-    canvas.setPointerCapture(event.pointerId);
+    if (event.pointerType !== "touch") canvas.setPointerCapture(event.pointerId); // a touch is captured by itself
     follow(event);
   });
   canvas.addEventListener("pointermove", follow);
@@ -26,7 +26,7 @@ export function playWith(view, fingers, controls) {
   canvas.addEventListener("contextmenu", (event) => event.preventDefault());
   canvas.addEventListener("wheel", (event) => {
     event.preventDefault();
-    controls.nudge(event.buttons ? "force" : "hover", -Math.sign(event.deltaY));
+    controls.nudge(fingers.pressing ? "force" : "hover", -Math.sign(event.deltaY));
   }, { passive: false });
   addEventListener("blur", () => fingers.vanish());
   addEventListener("pagehide", () => fingers.vanish());

@@ -48,23 +48,23 @@ export class LimbView {
   }
 
   /** Host-frame millimetres to CSS pixels of the canvas. */
-  toScreen(xMm, yMm) {
+  toScreen(x_mm, y_mm) {
     const { left, right, top } = BOUNDS_MM;
     const middle = this.#canvas.clientWidth / 2;
-    return [middle + this.thumbwards * (xMm - (left + right) / 2) * this.#scale, (top - yMm) * this.#scale + this.#marginTop];
+    return [middle + this.thumbwards * (x_mm - (left + right) / 2) * this.#scale, (top - y_mm) * this.#scale + this.#marginTop];
   }
 
   /** CSS pixels of the canvas to host-frame millimetres. */
   toMm(x, y) {
     const { left, right, top } = BOUNDS_MM;
-    const xMm = (x - this.#canvas.clientWidth / 2) / (this.thumbwards * this.#scale) + (left + right) / 2;
-    return [xMm, top - (y - this.#marginTop) / this.#scale];
+    const x_mm = (x - this.#canvas.clientWidth / 2) / (this.thumbwards * this.#scale) + (left + right) / 2;
+    return [x_mm, top - (y - this.#marginTop) / this.#scale];
   }
 
   /** The surface at a height along the limb. */
-  surfaceAt(yMm) {
-    if (this.side === "palm") return yMm < 0 ? "INNER_FOREARM" : "PALM";
-    return yMm < 0 ? "OUTER_FOREARM" : "BACK_OF_HAND";
+  surfaceAt(y_mm) {
+    if (this.side === "palm") return y_mm < 0 ? "INNER_FOREARM" : "PALM";
+    return y_mm < 0 ? "OUTER_FOREARM" : "BACK_OF_HAND";
   }
 
   /** True where a point of the canvas (CSS pixels) is on the limb. */

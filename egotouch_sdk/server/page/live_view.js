@@ -36,19 +36,19 @@ connection.addEventListener("events", ({ detail: { events, local } }) => {
     if (event.late) continue;
     marks.apply(event, now);
     if (event.type === "DOWN" || event.type === "HOVER_ENTER") showHost(hostOf(event), true);
-    if (event.type === "DOWN" || event.type === "MOVE") force.add(event.pointerId, FINGER_COLOURS[event.finger], now, event.forceN);
-    if (event.type === "UP" || event.type === "CANCEL") force.add(event.pointerId, FINGER_COLOURS[event.finger], now, null);
-    if (event.type === "DOWN" || event.type === "MOVE") byId("force-now").textContent = `${event.forceN.toFixed(2)} N`;
+    if (event.type === "DOWN" || event.type === "MOVE") force.add(event.pointer_id, FINGER_COLOURS[event.finger], now, event.force_n);
+    if (event.type === "UP" || event.type === "CANCEL") force.add(event.pointer_id, FINGER_COLOURS[event.finger], now, null);
+    if (event.type === "DOWN" || event.type === "MOVE") byId("force-now").textContent = `${event.force_n.toFixed(2)} N`;
     if (event.type === "UP" || event.type === "CANCEL") byId("force-now").textContent = "";
   }
 });
 connection.addEventListener("timing", ({ detail }) => {
   const now = performance.now();
-  latency.add("sent", "#4ade9c", now, detail.sentMs);
+  latency.add("sent", "#4ade9c", now, detail.sendMs);
   latency.add("age", "#5ac8fa", now, detail.ageMs);
 });
 connection.addEventListener("welcome", ({ detail: { settings, features } }) => {
-  if (settings.forceEnterN) force.level = { value: settings.forceEnterN, name: "onForce" };
+  if (settings.force_enter_n) force.level = { value: settings.force_enter_n, name: "onForce" };
   byId("to-simulator").hidden = !features.includes(SIMULATOR);
 });
 
@@ -78,10 +78,8 @@ for (const finger of FINGERS) {
 }
 
 function percentiles() {
-  const values = latency.values();
-  if (!values.length) return "";
-  const at = (share) => values[Math.min(values.length - 1, Math.floor(share * values.length))].toFixed(1);
-  return `p50 ${at(0.5)} · p95 ${at(0.95)} ms`;
+  const of = (key) => [0.5, 0.95].map((share) => latency.percentile(key, share)?.toFixed(1)).join(" / ");
+  return latency.percentile("age", 0.5) === null ? "" : `sent ${of("sent")} · here ${of("age")} ms (p50 / p95)`;
 }
 
 let idle = false;

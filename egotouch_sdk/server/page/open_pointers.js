@@ -4,10 +4,10 @@
 const HOVER = new Set(["HOVER_ENTER", "HOVER_MOVE", "HOVER_EXIT"]);
 const AFTER_UP = new Set(["CLICK", "DOUBLE_CLICK", "FLING"]);
 
-const exitOf = (last) => ({ ...last, type: "HOVER_EXIT", downTimeMs: null, forceN: 0, clickCount: 0, reason: null, coalesced: [] });
+const exitOf = (last) => ({ ...last, type: "HOVER_EXIT", force_n: 0, click_count: 0, reason: null, coalesced: [] });
 
 export class OpenPointers {
-  #open = new Map(); // pointerId -> {last: event, touching: boolean}
+  #open = new Map(); // pointer_id -> {last: event, touching: boolean}
 
   /** Number of contacts that are down. */
   get contacts() {
@@ -21,20 +21,20 @@ export class OpenPointers {
 
   /** Take an event from the server; false when it belongs to a contact that has ended here and must be ignored. */
   accept(event) {
-    const pointer = this.#open.get(event.pointerId);
+    const pointer = this.#open.get(event.pointer_id);
     if (event.type === "HOVER_EXIT") {
-      this.#open.delete(event.pointerId);
+      this.#open.delete(event.pointer_id);
       return pointer !== undefined;
     }
     if (HOVER.has(event.type)) {
-      this.#open.set(event.pointerId, { last: event, touching: false });
+      this.#open.set(event.pointer_id, { last: event, touching: false });
       return true;
     }
     if (event.type === "DOWN") {
-      this.#open.set(event.pointerId, { last: event, touching: true });
+      this.#open.set(event.pointer_id, { last: event, touching: true });
       return true;
     }
-    if (AFTER_UP.has(event.type)) return pointer?.last.contactId === event.contactId && pointer.last.type !== "CANCEL";
+    if (AFTER_UP.has(event.type)) return pointer?.last.contact_id === event.contact_id && pointer.last.type !== "CANCEL";
     if (!pointer?.touching) return false;
     pointer.last = event;
     pointer.touching = event.type !== "UP" && event.type !== "CANCEL";
@@ -45,7 +45,7 @@ export class OpenPointers {
   cancelContacts(reason = "DISCONNECTED") {
     const touching = [...this.#open.values()].filter((pointer) => pointer.touching);
     for (const pointer of touching) {
-      pointer.last = { ...pointer.last, type: "CANCEL", forceN: 0, clickCount: 0, reason, coalesced: [] };
+      pointer.last = { ...pointer.last, type: "CANCEL", force_n: 0, click_count: 0, reason, coalesced: [] };
       pointer.touching = false;
     }
     return touching.map((pointer) => pointer.last);

@@ -9,11 +9,11 @@ const BESIDE_MM = 24;
 const FORCE_MAX_N = 3.5;
 
 export class PlayedFingers {
-  #fingers = new Map(); // DOM pointer id -> {id, finger, xMm, yMm, down, pen, gone}
+  #fingers = new Map(); // DOM pointer id -> {id, finger, x_mm, y_mm, down, pen, gone}
   #settings;
   #view;
 
-  /** `settings()` gives `{finger, forceN, pitchRad, yawRad, hoverMm, hoverOnly, deviceForce}`. */
+  /** `settings()` gives `{finger, force_n, pitch_rad, yaw_rad, hover_mm, hoverOnly, deviceForce}`. */
   constructor(view, settings) {
     this.#view = view;
     this.#settings = settings;
@@ -21,19 +21,24 @@ export class PlayedFingers {
 
   /** Follow a DOM pointer; `down` while it presses. Off the skin a finger lifts. */
   move(pointer, { down, now, shift = false }) {
-    const [xMm, yMm] = this.#view.toMm(pointer.x, pointer.y);
+    const [x_mm, y_mm] = this.#view.toMm(pointer.x, pointer.y);
     const onSkin = this.#view.isOnSkin(pointer.x, pointer.y);
     const known = this.#fingers.get(pointer.id);
     if (!known && !onSkin) return;
     const finger = known?.finger ?? this.#free();
     if (!finger) return;
-    this.#fingers.set(pointer.id, { id: known?.id ?? this.#freeId(), finger, xMm, yMm, down: down && onSkin, pen: pointer.pen, shift, gone: null });
+    this.#fingers.set(pointer.id, { id: known?.id ?? this.#freeId(), finger, x_mm, y_mm, down: down && onSkin, pen: pointer.pen, shift, gone: null });
     if (!onSkin && !down) this.leave(pointer.id, now);
   }
 
+  /** True while any finger presses. */
+  get pressing() {
+    return [...this.#fingers.values()].some((finger) => finger.down);
+  }
+
   /** A DOM pointer has lifted or gone out of the picture: its finger hovers a moment, then leaves. */
-  leave(pointerId, now) {
-    const finger = this.#fingers.get(pointerId);
+  leave(pointer_id, now) {
+    const finger = this.#fingers.get(pointer_id);
     if (finger && finger.gone === null) Object.assign(finger, { down: false, gone: now + LINGER_MS });
   }
 
@@ -64,26 +69,26 @@ export class PlayedFingers {
     return played;
   }
 
-  #place({ id, finger, xMm, yMm, down, pen }, settings) {
+  #place({ id, finger, x_mm, y_mm, down, pen }, settings) {
     const touching = down && !settings.hoverOnly;
     const device = settings.deviceForce && pen ? pen : {};
     return {
       id,
       finger,
-      surface: this.#view.surfaceAt(yMm),
-      xMm,
-      yMm,
-      hoverMm: touching ? 0 : settings.hoverMm,
-      forceN: touching ? Math.min(device.forceN ?? settings.forceN, FORCE_MAX_N) : 0,
-      pitchRad: device.pitchRad ?? settings.pitchRad,
-      yawRad: device.yawRad ?? settings.yawRad,
+      surface: this.#view.surfaceAt(y_mm),
+      x_mm,
+      y_mm,
+      hover_mm: touching ? 0 : settings.hover_mm,
+      force_n: touching ? Math.min(device.force_n ?? settings.force_n, FORCE_MAX_N) : 0,
+      pitch_rad: device.pitch_rad ?? settings.pitch_rad,
+      yaw_rad: device.yaw_rad ?? settings.yaw_rad,
     };
   }
 
   #second(first, settings) {
     const finger = this.#order().find((candidate) => !this.#taken(candidate));
     if (!finger) return [];
-    const beside = { ...first, id: first.id + 100, finger, xMm: first.xMm + BESIDE_MM };
+    const beside = { ...first, id: first.id + 100, finger, x_mm: first.x_mm + BESIDE_MM };
     return [this.#place(beside, settings)];
   }
 
@@ -112,10 +117,10 @@ export class PlayedFingers {
 /** Force and angles of a pen, from a DOM PointerEvent; null for what has no pressure of its own. */
 export function penOf(event, view) {
   if (event.pointerType !== "pen") return null;
-  const pen = { forceN: event.pressure * FORCE_MAX_N };
+  const pen = { force_n: event.pressure * FORCE_MAX_N };
   const [altitude, azimuth] = [event.altitudeAngle, event.azimuthAngle];
   if (altitude === undefined || altitude >= Math.PI / 2 - 0.01) return pen; // upright or without tilt: the sliders hold
   // A pen leans away from where it points: azimuth is 0 along the picture's +x and grows clockwise.
   const [right, up] = [-Math.cos(azimuth), Math.sin(azimuth)];
-  return { ...pen, pitchRad: altitude, yawRad: Math.atan2(right * view.thumbwards, up) };
+  return { ...pen, pitch_rad: altitude, yaw_rad: Math.atan2(right * view.thumbwards, up) };
 }

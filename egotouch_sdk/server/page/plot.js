@@ -31,10 +31,10 @@ export class Plot {
     this.#series.clear();
   }
 
-  /** All values of the window, sorted. */
-  values() {
-    return [...this.#series.values()].flatMap(({ points }) => points.map((point) => point.value)).filter((value) => value !== null)
-      .sort((a, b) => a - b);
+  /** A part of one series' values, for example 0.95 for the 95th percentile; null without values. */
+  percentile(key, share) {
+    const values = (this.#series.get(key)?.points ?? []).map((point) => point.value).sort((a, b) => a - b);
+    return values.length ? values[Math.min(values.length - 1, Math.floor(share * values.length))] : null;
   }
 
   draw(now) {
@@ -45,7 +45,7 @@ export class Plot {
     }
     const context = this.#canvas.getContext("2d");
     const [width, height, left, bottom] = [this.#canvas.clientWidth, this.#canvas.clientHeight, 38, 18];
-    const highest = Math.max(top, ...this.values().slice(-1));
+    const highest = [...this.#series.values()].flatMap(({ points }) => points).reduce((most, { value }) => Math.max(most, value ?? 0), top);
     const x = (at) => width - ((now - at) / windowMs) * (width - left);
     const y = (value) => 6 + (1 - value / highest) * (height - bottom - 6);
     context.clearRect(0, 0, width, height);

@@ -42,12 +42,12 @@ connection.addEventListener("events", ({ detail: { events, local } }) => {
     marks.apply(event, now);
     const ended = event.type === "UP" || event.type === "CANCEL";
     if (!ended && event.type !== "DOWN" && event.type !== "MOVE") continue;
-    force.add(event.pointerId, FINGER_COLOURS[event.finger], now, ended ? null : event.forceN);
-    byId("force-now").textContent = ended ? "" : `${event.forceN.toFixed(2)} N`;
+    force.add(event.pointer_id, FINGER_COLOURS[event.finger], now, ended ? null : event.force_n);
+    byId("force-now").textContent = ended ? "" : `${event.force_n.toFixed(2)} N`;
   }
 });
 connection.addEventListener("welcome", ({ detail: { features, settings } }) => {
-  if (settings.forceEnterN) force.level = { value: settings.forceEnterN, name: "onForce" };
+  if (settings.force_enter_n) force.level = { value: settings.force_enter_n, name: "onForce" };
   byId("notice").hidden = features.includes(SIMULATOR);
   byId("notice").textContent = "This server plays another source. To touch here, start it with: egotouch simulate";
 });
@@ -59,9 +59,9 @@ byId("clear").addEventListener("click", () => {
 function describe(pointers) {
   if (!pointers.length) return "Press on the skin.";
   return pointers
-    .map(({ finger, surface, xMm, yMm, hoverMm, forceN }) => {
-      const how = hoverMm === 0 ? `${forceN.toFixed(1)} N` : `hovers at ${hoverMm} mm`;
-      return `${words(finger)}: ${words(surface)}, x ${xMm.toFixed(0)}, y ${yMm.toFixed(0)} mm, ${how}`;
+    .map(({ finger, surface, x_mm, y_mm, hover_mm, force_n }) => {
+      const how = hover_mm === 0 ? `${force_n.toFixed(1)} N` : `hovers at ${hover_mm} mm`;
+      return `${words(finger)}: ${words(surface)}, x ${x_mm.toFixed(0)}, y ${y_mm.toFixed(0)} mm, ${how}`;
     })
     .join(" · ");
 }

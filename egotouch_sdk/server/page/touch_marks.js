@@ -8,7 +8,7 @@ const FORCE_MAX_N = 3.5;
 const FLASHES = { UP: "ring", CANCEL: "cross", CLICK: "burst", DOUBLE_CLICK: "burst", LONG_CLICK: "burst", FLING: "burst" };
 
 export class TouchMarks {
-  #pointers = new Map(); // pointerId -> {event, touching, trail: [{event, at}]}
+  #pointers = new Map(); // pointer_id -> {event, touching, trail: [{event, at}]}
   #flashes = []; // {event, kind, at}
 
   /** True while something moves or fades, so that the views must be drawn again. */
@@ -21,10 +21,10 @@ export class TouchMarks {
     const kind = FLASHES[event.type];
     if (kind) this.#flashes.push({ event, kind, at: now });
     if (event.type === "HOVER_EXIT") {
-      this.#pointers.delete(event.pointerId);
+      this.#pointers.delete(event.pointer_id);
       return;
     }
-    const pointer = this.#pointers.get(event.pointerId) ?? { trail: [] };
+    const pointer = this.#pointers.get(event.pointer_id) ?? { trail: [] };
     if (event.type === "DOWN") pointer.trail = [];
     if (event.type === "DOWN" || event.type === "MOVE") {
       for (const sample of [...event.coalesced, event]) pointer.trail.push({ event: sample, at: now });
@@ -32,7 +32,7 @@ export class TouchMarks {
     }
     if (event.type === "UP" || event.type === "CANCEL" || event.type.startsWith("HOVER")) pointer.touching = false;
     pointer.event = event;
-    this.#pointers.set(event.pointerId, pointer);
+    this.#pointers.set(event.pointer_id, pointer);
   }
 
   /** Draw what belongs on this side of this host's limb. */
@@ -52,10 +52,10 @@ export class TouchMarks {
 }
 
 /** The touching finger as a shaft from its tip backwards, shortened by its pitch; also drawn by the simulator's page. */
-export function paintFinger(view, context, { xMm, yMm, yawRad, pitchRad, finger }, alpha) {
-  const lengthMm = 14 + 52 * Math.cos(pitchRad);
-  const end = [xMm - Math.sin(yawRad) * lengthMm, yMm - Math.cos(yawRad) * lengthMm];
-  const [tipX, tipY] = view.toScreen(xMm, yMm);
+export function paintFinger(view, context, { x_mm, y_mm, yaw_rad, pitch_rad, finger }, alpha) {
+  const lengthMm = 14 + 52 * Math.cos(pitch_rad);
+  const end = [x_mm - Math.sin(yaw_rad) * lengthMm, y_mm - Math.cos(yaw_rad) * lengthMm];
+  const [tipX, tipY] = view.toScreen(x_mm, y_mm);
   const [endX, endY] = view.toScreen(...end);
   const fade = context.createLinearGradient(tipX, tipY, endX, endY);
   fade.addColorStop(0, withAlpha(FINGER_COLOURS[finger], alpha));
@@ -70,11 +70,11 @@ export function paintFinger(view, context, { xMm, yMm, yawRad, pitchRad, finger 
 }
 
 /** Radius of the disc of a touch, in millimetres. */
-export const discRadiusMm = (forceN) => 4.5 + 6.5 * Math.min(forceN / FORCE_MAX_N, 1);
+export const discRadiusMm = (force_n) => 4.5 + 6.5 * Math.min(force_n / FORCE_MAX_N, 1);
 
 function paintDisc(view, context, event) {
-  const [x, y] = view.toScreen(event.xMm, event.yMm);
-  const radius = discRadiusMm(event.forceN) * view.scale;
+  const [x, y] = view.toScreen(event.x_mm, event.y_mm);
+  const radius = discRadiusMm(event.force_n) * view.scale;
   const colour = FINGER_COLOURS[event.finger];
   const glow = context.createRadialGradient(x, y, radius * 0.6, x, y, radius * 2);
   glow.addColorStop(0, withAlpha(colour, 0.5));
@@ -88,11 +88,11 @@ function paintDisc(view, context, event) {
   context.lineWidth = 2;
   context.strokeStyle = "#ffffff";
   context.stroke();
-  label(view, context, x, y - radius, `${event.forceN.toFixed(1)} N`);
+  label(view, context, x, y - radius, `${event.force_n.toFixed(1)} N`);
 }
 
 function paintHover(view, context, event) {
-  const [x, y] = view.toScreen(event.xMm, event.yMm);
+  const [x, y] = view.toScreen(event.x_mm, event.y_mm);
   circle(context, x, y, Math.max(7, 6.5 * view.scale));
   context.lineWidth = 2;
   context.setLineDash([5, 4]);
@@ -106,16 +106,16 @@ function paintTrail(view, context, trail, now) {
   for (let i = 1; i < trail.length; i += 1) {
     const fresh = 1 - (now - trail[i].at) / TRAIL_MS;
     context.beginPath();
-    context.moveTo(...view.toScreen(trail[i - 1].event.xMm, trail[i - 1].event.yMm));
-    context.lineTo(...view.toScreen(trail[i].event.xMm, trail[i].event.yMm));
-    context.lineWidth = (1.5 + discRadiusMm(trail[i].event.forceN) * 0.7 * fresh) * view.scale;
+    context.moveTo(...view.toScreen(trail[i - 1].event.x_mm, trail[i - 1].event.y_mm));
+    context.lineTo(...view.toScreen(trail[i].event.x_mm, trail[i].event.y_mm));
+    context.lineWidth = (1.5 + discRadiusMm(trail[i].event.force_n) * 0.7 * fresh) * view.scale;
     context.strokeStyle = withAlpha(FINGER_COLOURS[trail[i].event.finger], 0.75 * fresh);
     context.stroke();
   }
 }
 
 function paintFlash(view, context, { event, kind }, age) {
-  const [x, y] = view.toScreen(event.xMm, event.yMm);
+  const [x, y] = view.toScreen(event.x_mm, event.y_mm);
   context.lineWidth = kind === "burst" ? 4 * (1 - age) + 1 : 2;
   context.strokeStyle = kind === "cross" ? withAlpha("#ff6b6b", 1 - age) : withAlpha(FINGER_COLOURS[event.finger], 1 - age);
   if (kind === "cross") {
