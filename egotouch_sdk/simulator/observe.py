@@ -42,7 +42,7 @@ def observe(scene: SimulatedScene, index: int, timestamp_ns: int) -> FrameObserv
             pairs.append(pair)
             tips += [_fingertip(finger, pair, scene.view) for finger in fingers]
             estimates += [_estimate(finger, pair.touching.hand_id) for finger in fingers]
-        elif hand.other in scene.hosts:
+        elif hand.other in scene.hosts and not scene.of_hand(hand.other):
             hands.append(_host(scene, hand.other))
     gate = GateResult(_reason(hands, pairs), tuple(pairs))
     size_px = scene.view.width_px, scene.view.height_px

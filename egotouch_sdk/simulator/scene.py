@@ -111,9 +111,10 @@ class SimulatedView:
 class SimulatedScene:
     """All that is seen in one instant.
 
-    `fingers` may be of both hands; those of one hand touch the same side of the other's limb. `palm_side` is the side that a limb
-    without fingers shows, `hosts` are limbs that are seen even without fingers. `generation` counts how often the hand tracking
-    has lost every hand and found it as a new one. Raises `FrameError` for a finger given twice or a limb touched on two sides.
+    `fingers` may be of both hands; those of one hand touch the same side of the other's limb. `hosts` are limbs that are seen
+    without fingers too, unless their own hand is touching; `palm_side` is the side that they show. `generation` counts how often
+    the hand tracking has lost every hand and found it as a new one.
+    Raises `FrameError` for a finger given twice or a limb touched on two sides.
     """
 
     fingers: tuple[SimulatedFinger, ...] = ()

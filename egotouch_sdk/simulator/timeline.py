@@ -104,7 +104,6 @@ class Timeline:
         self._swaps_ms: list[float] = []
         self._schedule(name)
         self._check(name)
-        self._hosts = tuple(sorted({hand.other for hand, _ in self._strokes} or {script.hand.other}))
 
     def scene(self, time_ms: float, index: int = 0) -> SimulatedScene | None:
         """What is seen at this time in picture number `index` (it seeds the noise); None while the camera stalls."""
@@ -123,7 +122,8 @@ class Timeline:
             if (side := sides[stroke.hand]) and side.palm_side == stroke.palm_side
         )
         nearest = _nearest(self._all(), time_ms)
-        return SimulatedScene(fingers, hosts=self._hosts, palm_side=nearest.palm_side if nearest else True, generation=generation)
+        host = (nearest.hand if nearest else self._script.hand).other
+        return SimulatedScene(fingers, hosts=(host,), palm_side=nearest.palm_side if nearest else True, generation=generation)
 
     def is_stalled(self, time_ms: float) -> bool:
         """True while the camera gives no pictures."""

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any, ClassVar, Final
 
 from textual.app import App, ComposeResult
-from textual.binding import BindingType
+from textual.binding import Binding, BindingType
 from textual.containers import Vertical
 from textual.widgets import Footer, RichLog, Static
 
@@ -45,6 +45,7 @@ class TraceApp(App[int]):
         ("f", "moves", "Moves on/off"),
         ("s", "save", "Save log"),
         ("q", "quit_with(0)", "Quit"),
+        Binding("ctrl+c", "quit_with(130)", show=False, priority=True),
     ]
 
     def __init__(
@@ -83,7 +84,6 @@ class TraceApp(App[int]):
 
     def on_mount(self) -> None:
         """Begin to play."""
-        self.bind("ctrl+c", "quit_with(130)", show=False)
         self.query_one("#pointers").border_title = "Pointers"
         events = self.query_one("#events")
         events.border_title, events.border_subtitle = f"Events of {self._source_name}", MOVES_HIDDEN

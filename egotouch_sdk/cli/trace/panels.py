@@ -130,7 +130,7 @@ def _row(pointer: PointerSnapshot, timestamp_ns: int) -> list[Text]:
         Text(event.surface.value),
         Text(rounded(event.x_mm)),
         Text(rounded(event.y_mm)),
-        bar(event.force_n / FORCE_MAX_N, "#d2a8ff" if hard else "#56d364") + Text(f" {event.force_n:.2f} N"),
+        Text.assemble(bar(event.force_n / FORCE_MAX_N, "#d2a8ff" if hard else "#56d364"), f" {event.force_n:.2f} N"),
         Text(f"{event.touch_probability:.2f}"),
         Text(f"{event.pitch_deg:.0f}°"),
         Text(f"{event.yaw_deg:.0f}°"),

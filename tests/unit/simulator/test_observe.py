@@ -147,6 +147,11 @@ def test_without_a_finger_the_gate_is_closed(hosts: tuple[Handedness, ...], reas
     assert (observation.gate.reason, len(observation.hands)) == (reason, len(hosts))
 
 
+def test_a_hand_that_touches_is_not_shown_as_a_host_as_well() -> None:
+    scene = SimulatedScene((SimulatedFinger(Surface.PALM, 0.0, 40.0, hand=Handedness.LEFT),), hosts=tuple(Handedness))
+    assert [hand.handedness for hand in observe(scene, 0, 0).hands] == [Handedness.LEFT, Handedness.RIGHT]
+
+
 @pytest.mark.parametrize("host", Handedness)
 @pytest.mark.parametrize("palm_side", [True, False])
 def test_a_mouse_on_the_picture_points_at_the_place_under_it(host: Handedness, palm_side: bool) -> None:
