@@ -104,8 +104,8 @@ class ContactRules:
             self._was_long = True
         elif kind is _T.CLICK and self._was_dragged:
             yield "click after a drag"
-        elif kind is _T.DOUBLE_CLICK and self.last.click_count != 2:
-            yield f"double_click after {self.last.type} {self.last.click_count}"
+        elif kind is _T.DOUBLE_CLICK and not self.last.click_count == event.click_count == 2:
+            yield f"double_click has click_count {event.click_count} after {self.last.type} {self.last.click_count}"
         elif kind is _T.FLING and not self._was_dragged:
             yield "fling without a drag"
         self._closing = event if kind is _T.DRAG_END or (kind is _T.FORCE_EXIT and self._closes(event)) else None
