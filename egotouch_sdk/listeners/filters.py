@@ -27,7 +27,7 @@ def members(kind: type[EnumT], given: str | Collection[str] | None, what: str) -
         return None
     names = [given] if isinstance(given, str) else list(given)
     if not names:
-        raise ConfigError(f"{what}= is empty and would match nothing", hint="Leave it out to get everything")
+        raise ConfigError(f"no {what} is wanted, so nothing would match", hint="Leave it out to get everything")
     return frozenset(member(kind, name, what) for name in names)
 
 
@@ -38,7 +38,7 @@ def member(kind: type[EnumT], name: str, what: str) -> EnumT:
     except ValueError:
         close = get_close_matches(str(name).lower(), [str(value) for value in kind], n=1)
         hint = f"Did you mean {close[0]}?" if close else f"There are: {', '.join(kind)}"
-        raise ConfigError(f"{what}={name!r} is not a {kind.__name__}", hint=hint) from None
+        raise ConfigError(f"there is no {what} {name!r}", hint=hint) from None
 
 
 @dataclass(frozen=True, slots=True)

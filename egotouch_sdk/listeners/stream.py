@@ -40,7 +40,7 @@ class EventStream:
     ) -> None:
         if capacity < 1:
             raise ConfigError(f"queue={capacity}, need at least 1")
-        self._types = members(EventType, types if types is None or isinstance(types, str) else list(types), "types")
+        self._types = members(EventType, types if types is None or isinstance(types, str) else list(types), "event type")
         self._overflow = member(Overflow, overflow, "overflow")
         self._capacity = capacity
         self._buffer: CoalescingBuffer | deque[TouchEvent]

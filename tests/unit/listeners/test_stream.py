@@ -140,7 +140,7 @@ def test_pushing_after_the_loop_has_gone_harms_nobody() -> None:
     [
         ({"types": "clik"}, "Did you mean click"),
         ({"capacity": 0}, "need at least 1"),
-        ({"overflow": "drop"}, "Did you mean drop_oldest"),
+        ({"overflow": "drop_old"}, "Did you mean drop_oldest"),
     ],
 )
 def test_wrong_arguments_are_refused(arguments: dict[str, object], message: str) -> None:
