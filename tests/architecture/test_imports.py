@@ -22,7 +22,7 @@ RANKS: tuple[frozenset[str], ...] = (
     frozenset({"hands", "gate", "patches", "touch", "filters", "host_frame", "state", "gestures", "skin"}),
     frozenset({"recording", "simulator"}),
     frozenset({"sources", "engine"}),
-    frozenset({"pipeline", "replay"}),
+    frozenset({"capture", "pipeline", "replay"}),
     frozenset({"ego_touch", "server"}),
     frozenset({"view", "benchmark", "synthetic", "evaluation"}),
     frozenset({"training", "cli"}),
