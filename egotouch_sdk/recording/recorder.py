@@ -67,8 +67,10 @@ class Recorder:
             if image:
                 self._container.add(topics.IMAGE, SCHEMA_NAME, image_schema(), timestamp_ns, image)
             self._flush_when_due(timestamp_ns)
-        except RecordingError:
+        except BaseException:
+            # A frame that was written by half must not be followed by another.
             self._is_open = False
+            self._container.abandon()
             raise
         self.frames += 1
 
@@ -87,7 +89,8 @@ class Recorder:
             self._container.close()
 
     def _add(self, topic: str, timestamp_ns: int, message: Message) -> None:
-        self._container.add(topic, message.DESCRIPTOR.full_name, topics.own_schema(), timestamp_ns, message.SerializeToString())
+        kind = message.DESCRIPTOR
+        self._container.add(topic, kind.full_name, topics.schema_of(kind.name), timestamp_ns, message.SerializeToString())
 
     def _add_events(self, timestamp_ns: int, events: tuple[TouchEvent, ...]) -> None:
         if events:
