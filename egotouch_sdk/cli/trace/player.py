@@ -6,17 +6,19 @@ from collections import deque
 from collections.abc import Iterator
 from dataclasses import dataclass
 from threading import Event, Thread
-from typing import Any
+from typing import Any, Final
 
 from egotouch_sdk.cli.play import Engine, Timed, play
 from egotouch_sdk.clock import Pacer
 from egotouch_sdk.engine import EventEngine, PointerSnapshot
-from egotouch_sdk.errors import EgoTouchError
 from egotouch_sdk.frame_result import FrameResult
 from egotouch_sdk.joints import Handedness
 from egotouch_sdk.observation import GateReason
 from egotouch_sdk.sources import FrameSource, ObservationSource
 from egotouch_sdk.touch_event import TouchEvent
+
+#: A source that is stuck in a driver is left behind after this long (our choice).
+STOP_TIMEOUT_S: Final = 2.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,7 +45,7 @@ class Player:
         self, source: FrameSource | ObservationSource, engine: Engine[Any], core: EventEngine, *, paced: bool, until_ns: int | None = None
     ) -> None:
         self.is_live = source.is_live
-        self.error: EgoTouchError | None = None
+        self.error: Exception | None = None
         self.held = Event()
         self.ended = Event()
         self._source = source
@@ -57,6 +59,11 @@ class Player:
         self._going.set()
         self._stopping = Event()
         self._thread = Thread(target=self._run, name="egotouch-debug-events", daemon=True)
+
+    @property
+    def is_running(self) -> bool:
+        """True while the source is being played."""
+        return self._thread.is_alive()
 
     def start(self) -> None:
         """Begin to play."""
@@ -78,11 +85,13 @@ class Player:
         return [self._last_events.popleft() for _ in range(len(self._last_events))]
 
     def stop(self) -> None:
-        """End the thread; one that waits for a picture ends with the program."""
+        """End the thread; a live source is closed, so that nobody waits for its next picture."""
         self._stopping.set()
         self._going.set()
+        if self.is_live:
+            self._source.close()
         if self._thread.is_alive():
-            self._thread.join(timeout=2.0)
+            self._thread.join(timeout=STOP_TIMEOUT_S)
 
     def _run(self) -> None:
         pending: list[TouchEvent] = []
@@ -93,7 +102,7 @@ class Player:
 
         try:
             play(self._items(), self._engine, pending.append, on_frame)
-        except EgoTouchError as error:
+        except Exception as error:
             self.error = error
         finally:
             self._last_events.extend(pending)

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import json
+import os
+import subprocess
 import sys
 from collections import Counter
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
@@ -25,6 +28,13 @@ def test_plain_lines_tell_every_edge(egotouch: Command) -> None:
     assert words["DOWN"] == words["UP"] == 7
     assert (words["CLICK"], words["DOUBLE_CLICK"], words["LONG_CLICK"], words["FLING"], words["MOVE"]) == (5, 1, 1, 1, 0)
     assert "events" in err
+
+
+def test_a_recording_gives_the_same_lines_as_what_was_recorded(egotouch: Command, tmp_path: Path) -> None:
+    assert egotouch("record", TAPS, "-o", tmp_path / "taps.mcap")[0] == 0
+    recorded, played = (egotouch("debug-events", source, "--no-tui", "--moves")[1] for source in (tmp_path / "taps.mcap", TAPS))
+    assert recorded == played
+    assert len(played.splitlines()) > 300
 
 
 def test_moves_are_printed_on_demand(egotouch: Command) -> None:
@@ -109,3 +119,24 @@ def test_help_ends_with_examples(egotouch: Command, command: str) -> None:
     code, out, _ = egotouch(command, "--help")
     assert code == 0
     assert f"examples:\n  egotouch {command}" in out
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(sys.platform == "win32", reason="no pseudo-terminals")
+@pytest.mark.parametrize(("key", "code"), [(b"q", 0), (b"\x03", 130)])
+def test_in_a_terminal_it_starts_and_leaves_by_key(key: bytes, code: int) -> None:
+    ours, theirs = os.openpty()
+    command = [sys.executable, "-m", "egotouch_sdk", "debug-events", str(TAPS)]
+    environment = os.environ | {"TERM": "xterm-256color", "COLUMNS": "140", "LINES": "40"}
+    with subprocess.Popen(command, stdin=theirs, stdout=theirs, stderr=theirs, env=environment, start_new_session=True) as process:
+        os.close(theirs)
+        screen = b""
+        while b"HOVER_ENTER" not in screen:
+            screen += os.read(ours, 65536)
+        os.write(ours, key)
+        with suppress(OSError):  # a terminal whose program has ended
+            while os.read(ours, 65536):
+                pass
+        assert process.wait(timeout=30) == code
+    os.close(ours)
+    assert b"Traceback" not in screen

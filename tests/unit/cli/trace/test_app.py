@@ -170,6 +170,7 @@ def test_a_log_that_cannot_be_written_is_said(source: HandFedSource, tmp_path: P
     app = app_of(source, tmp_path)
 
     async def steps(pilot: Pilot[int]) -> None:
+        source.end()
         await pilot.press("s")
         await until(pilot, lambda: any("cannot write" in note.message for note in app._notifications))
 
@@ -180,6 +181,7 @@ def test_a_log_that_cannot_be_written_is_said(source: HandFedSource, tmp_path: P
 def test_keys_that_leave(source: HandFedSource, key: str, code: int) -> None:
     async def steps(pilot: Pilot[int]) -> None:
         source.hover()
+        source.end()
         await pilot.press(key)
 
     assert drive(app_of(source), steps) == code
@@ -195,3 +197,15 @@ def test_a_source_that_fails_ends_the_app_with_its_error(source: HandFedSource) 
 
     assert drive(app, steps) == 1
     assert str(app._player.error) == "unplugged"
+
+
+def test_leaving_a_live_source_does_not_wait_for_its_next_picture(live_source: HandFedSource) -> None:
+    app = app_of(live_source)
+
+    async def steps(pilot: Pilot[int]) -> None:
+        live_source.hover()
+        await until(pilot, lambda: edges(app) == [HOVER_ENTER])
+        await pilot.press("q")
+
+    assert drive(app, steps) == 0
+    assert not app._player.is_running
