@@ -40,7 +40,7 @@ PRESETS: dict[PresetName, dict[str, dict[str, tuple[float, str]]]] = {
             "stall_ms": (400.0, "our choice: for cameras over a network"),
         },
         "gestures": {
-            "touch_slop_mm": (5.0, "our choice: for an unsteady hand"),
+            "touch_slop_mm": (8.0, "our choice: 1.6 times the default, for an unsteady hand"),
             "double_click_slop_mm": (25.0, "our choice: 1.5 times Android's"),
             "long_press_timeout_ms": (600.0, "our choice: 1.5 times Android's"),
             "double_tap_timeout_ms": (450.0, "our choice: 1.5 times Android's"),

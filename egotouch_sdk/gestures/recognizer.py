@@ -20,10 +20,10 @@ Timing cases. Times count from the DOWN, in capture time; numbers are the defaul
     a cancel, a stall or an end between    click 1, click 1
 
   drags
-    seen more than 3 mm from the DOWN      drag_start; drag with every later move; no click or long_click any more
+    seen more than 5 mm from the DOWN      drag_start; drag with every later move; no click or long_click any more
     ... in the frame of the 400 ms         drag_start, no long_click
     ... after the long_click               drag_start all the same
-    back within 3 mm                       drag goes on
+    back within 5 mm                       drag goes on
     lift                                   drag_end, up
     lift at 50 mm/s or more                drag_end, up, fling with at most 1270 mm/s
     lift after resting                     drag_end, up              slower than that for 40 ms or two frames, whichever is longer

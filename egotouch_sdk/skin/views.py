@@ -10,8 +10,8 @@ from egotouch_sdk.skin.polygon import Point
 from egotouch_sdk.skin.region import Region
 from egotouch_sdk.touch_event import TouchEvent
 
-#: A finger may leave a view this far before it counts as outside: the SDK's touch slop, which is also the accuracy that the host
-#: frame aims at (our choice; Android grows a pressed view by its touch slop of 8 dp = 1.27 mm, View.pointInView).
+#: A finger may leave a view this far before it counts as outside: the accuracy that the host frame aims at
+#: (our choice; Android grows a pressed view by its touch slop of 8 dp = 1.27 mm, View.pointInView).
 SLOP_MM = 3.0
 #: An axis shorter than this cannot be set with a fingertip (our choice).
 MIN_AXIS_MM = 10.0

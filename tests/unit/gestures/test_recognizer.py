@@ -197,8 +197,8 @@ def test_a_drag_between_two_clicks_parts_them() -> None:
     finger = clicked(new_finger(90))
     finger.hover(4)
     finger.touch_down()
-    finger.move(5.0)
-    finger.move(-5.0)
+    finger.move(6.0)
+    finger.move(-6.0)
     finger.lift()
     finger.hover(4)
     finger.tap()
@@ -247,7 +247,7 @@ def test_the_same_finger_of_the_other_hand_makes_no_double_click(finger: Scripte
 
 
 def test_a_drag_says_how_far_and_how_fast(finger: ScriptedFinger) -> None:
-    pressed(finger).move(3.0)
+    pressed(finger).move(5.0)
     finger.expect(MOVE)
     finger.expect_nothing_else()
     for _ in range(4):
@@ -255,10 +255,10 @@ def test_a_drag_says_how_far_and_how_fast(finger: ScriptedFinger) -> None:
     finger.lift()
     finger.expect(MOVE)
     start = finger.expect(DRAG_START)
-    assert (start.dx_mm, start.dy_mm) == (5.0, 1.0)
+    assert (start.dx_mm, start.dy_mm) == (7.0, 1.0)
     finger.expect(MOVE, DRAGGED, MOVE, DRAGGED, MOVE)
     drag = finger.expect(DRAGGED)
-    assert (drag.dx_mm, drag.dy_mm) == (11.0, 4.0)
+    assert (drag.dx_mm, drag.dy_mm) == (13.0, 4.0)
     assert (drag.velocity_x_mm_s, drag.velocity_y_mm_s) == pytest.approx((60.0, 30.0), rel=1e-3)
     end = finger.expect(DRAG_END)
     assert (end.reason, end.force_n) == (None, 0.0)
@@ -270,7 +270,7 @@ def test_a_finger_that_leaves_the_slop_at_400_ms_drags_and_does_not_click_long()
     finger = pressed(new_finger(100))
     finger.hold(390)
     finger.skip(MOVE)
-    finger.move(3.1)
+    finger.move(5.1)
     finger.expect(MOVE)
     assert finger.expect(DRAG_START).duration_ms == 400.0
     finger.hold(100)
@@ -284,7 +284,7 @@ def test_a_drag_may_begin_after_a_long_click(finger: ScriptedFinger) -> None:
     pressed(finger).hold(400)
     finger.skip(MOVE)
     finger.expect(LONG_CLICK)
-    finger.move(4.0)
+    finger.move(6.0)
     finger.hold(134)
     finger.lift()
     finger.expect(MOVE, DRAG_START)
@@ -294,8 +294,8 @@ def test_a_drag_may_begin_after_a_long_click(finger: ScriptedFinger) -> None:
 
 
 def test_coming_back_does_not_end_a_drag(finger: ScriptedFinger) -> None:
-    pressed(finger).move(4.0)
-    finger.move(-4.0)
+    pressed(finger).move(6.0)
+    finger.move(-6.0)
     finger.move()
     finger.expect(MOVE, DRAG_START, MOVE, DRAGGED, MOVE, DRAGGED)
     finger.expect_nothing_else()
