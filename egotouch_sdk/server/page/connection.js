@@ -39,6 +39,7 @@ export class Connection extends EventTarget {
   #retryTimer = 0;
   #opened = 0;
   #heard = 0;
+  #watched = 0;
   #probed = 0;
   #probes = 0;
 
@@ -147,7 +148,9 @@ export class Connection extends EventTarget {
   }
 
   #watch(now) {
-    if (this.#socket === null) return;
+    const pageSlept = now - this.#watched > 3 * WATCH_EVERY_MS; // what has come meanwhile is still to be read: not silence
+    this.#watched = now;
+    if (this.#socket === null || pageSlept) return;
     if (!this.#welcome) {
       if (now - this.#opened > WELCOME_TIMEOUT_MS) this.#abandon("The server does not answer.");
       return;

@@ -12,6 +12,7 @@ import { TouchMarks } from "./touch_marks.js";
 import { FINGER_COLOURS, FINGERS, hostOf, words } from "./vocabulary.js";
 
 const SIMULATOR = "simulator";
+const PLOT_EVERY_MS = 40;
 const byId = (id) => document.getElementById(id);
 
 const connection = new Connection({
@@ -79,15 +80,19 @@ for (const finger of FINGERS) {
 
 function percentiles() {
   const of = (key) => [0.5, 0.95].map((share) => latency.percentile(key, share)?.toFixed(1)).join(" / ");
-  return latency.percentile("age", 0.5) === null ? "" : `sent ${of("sent")} · here ${of("age")} ms (p50 / p95)`;
+  return latency.percentile("age", 0.5) === null ? "" : `sent ${of("sent")} · here ${of("age")} ms`;
 }
 
-let idle = false;
+let wasBusy = true;
+let plotted = 0;
 function frame(now) {
-  if (marks.busy || !idle) for (const view of views) view.draw();
-  idle = !marks.busy;
-  force.draw(now);
-  latency.draw(now);
+  if (marks.busy || wasBusy) for (const view of views) view.draw();
+  wasBusy = marks.busy;
+  if (now - plotted >= PLOT_EVERY_MS) {
+    plotted = now;
+    force.draw(now);
+    latency.draw(now);
+  }
   requestAnimationFrame(frame);
 }
 

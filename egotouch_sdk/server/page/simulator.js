@@ -14,6 +14,7 @@ import { paintFinger, TouchMarks } from "./touch_marks.js";
 import { FINGER_COLOURS, words } from "./vocabulary.js";
 
 const SIMULATOR = "simulator";
+const PLOT_EVERY_MS = 40;
 const byId = (id) => document.getElementById(id);
 
 const connection = new Connection({ url: sameOrigin(), client: "simulator", subscribe: { status: true }, access, keepToken });
@@ -66,12 +67,21 @@ function describe(pointers) {
     .join(" · ");
 }
 
+let wasBusy = true;
+let plotted = 0;
 function frame(now) {
   played = fingers.at(performance.now());
   sender.offer(played, view.host, now);
-  byId("place").textContent = describe(played);
-  view.draw();
-  force.draw(now);
+  const busy = marks.busy || played.length > 0;
+  if (busy || wasBusy) {
+    byId("place").textContent = describe(played);
+    view.draw();
+  }
+  wasBusy = busy;
+  if (now - plotted >= PLOT_EVERY_MS) {
+    plotted = now;
+    force.draw(now);
+  }
   requestAnimationFrame(frame);
 }
 
