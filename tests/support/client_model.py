@@ -27,8 +27,8 @@ class Held:
 class ClientModel:
     """Follows one server through any number of connections and checks that what it hears makes sense.
 
-    `acted` are the events an app would see, `late` those it must not act upon, `heard` both in their order; `local_cancels` counts the contacts that the client
-    ended by itself.
+    `acted` are the events an app would see, `late` those it must not act upon, `heard` both in their order. `local_cancels` counts the
+    contacts that the client ended by itself.
     """
 
     epoch: int = 0

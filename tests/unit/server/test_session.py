@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+from typing import Any
+
 import pytest
 
 from egotouch_sdk.errors import ConfigError
@@ -23,10 +25,6 @@ def world() -> ServedWorld:
 @pytest.fixture
 def finger(world: ServedWorld) -> ServedFinger:
     return ServedFinger(world)
-
-
-def subscribing(*types: int, **fields: object) -> dict[str, object]:
-    return {"types": [*types], **fields}
 
 
 @pytest.mark.parametrize("subprotocol", ["egotouch.v1.pb", "egotouch.v1.json"])
@@ -415,10 +413,10 @@ def test_a_missing_hello_is_noticed(world: ServedWorld) -> None:
     client.expect_closed(CloseCode.HELLO_TIMEOUT)
 
 
-@pytest.mark.parametrize("message", [pb.ClientMessage(), pb.ClientMessage(subscribe=pb.Subscribe()), pb.ClientMessage(frame=pb.ClientFrame())])
-def test_the_hello_comes_first(world: ServedWorld, message: pb.ClientMessage) -> None:
+@pytest.mark.parametrize("fields", [{}, {"subscribe": pb.Subscribe()}, {"frame": pb.ClientFrame()}, {"clock_request": pb.ClockRequest()}])
+def test_the_hello_comes_first(world: ServedWorld, fields: dict[str, Any]) -> None:
     client = world.connect()
-    client.send(message)
+    client.send(pb.ClientMessage(**fields))
     client.expect_closed(CloseCode.WRONG_ORDER)
 
 
@@ -534,5 +532,5 @@ def test_a_pairing_code_expires_and_a_new_one_is_shown(world: ServedWorld) -> No
 
 
 def test_a_short_token_is_refused() -> None:
-    with pytest.raises(ConfigError, match="128|at least 32"):
+    with pytest.raises(ConfigError, match="at least 32"):
         TokenAccess("secret")

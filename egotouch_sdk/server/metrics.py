@@ -1,0 +1,73 @@
+"""What the server measures about itself, in Prometheus' text format."""
+
+from __future__ import annotations
+
+from bisect import bisect_left
+from collections import Counter
+from collections.abc import Iterator, Sequence
+
+#: Upper bounds of the latency buckets in seconds.
+BUCKETS_S = (0.0005, 0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0)
+
+
+class Histogram:
+    """Counts of values up to each bound, as Prometheus has them."""
+
+    def __init__(self, bounds: Sequence[float] = BUCKETS_S) -> None:
+        self._bounds = tuple(bounds)
+        self._counts = [0] * (len(self._bounds) + 1)
+        self._sum = 0.0
+
+    def add(self, value: float, times: int = 1) -> None:
+        """Count a value, or the same one `times` times."""
+        self._counts[bisect_left(self._bounds, value)] += times
+        self._sum += value * times
+
+    def lines(self, name: str) -> Iterator[str]:
+        """The histogram as text."""
+        total = 0
+        for bound, count in zip((*self._bounds, float("inf")), self._counts, strict=True):
+            total += count
+            yield f'{name}_bucket{{le="{"+Inf" if bound == float("inf") else bound}"}} {total}'
+        yield f"{name}_sum {self._sum}"
+        yield f"{name}_count {total}"
+
+
+class Metrics:
+    """Counters since the server started; an object of its own, so that two servers in one process do not mix."""
+
+    def __init__(self) -> None:
+        self.frames = 0
+        self.messages = 0
+        self.merged = 0
+        self.clients = 0
+        self.events: Counter[str] = Counter()
+        self.closed: Counter[int] = Counter()
+        self.added_latency = Histogram()
+        self.capture_latency = Histogram()
+
+    def text(self) -> str:
+        """Everything in Prometheus' text format, version 0.0.4."""
+        return "\n".join((*self._lines(), ""))
+
+    def _lines(self) -> Iterator[str]:
+        yield from _family("egotouch_frames_total", "counter", "Frames worked through.", [("", self.frames)])
+        yield from _family("egotouch_events_total", "counter", "Events published.", _labelled("type", self.events))
+        yield from _family("egotouch_messages_sent_total", "counter", "Messages sent to clients.", [("", self.messages)])
+        yield from _family("egotouch_batches_merged_total", "counter", "Batches merged for clients that take fewer.", [("", self.merged)])
+        yield from _family("egotouch_clients", "gauge", "Clients that are connected.", [("", self.clients)])
+        yield from _family("egotouch_connections_closed_total", "counter", "Connections closed, by code.", _labelled("code", self.closed))
+        name, text = "egotouch_added_latency_seconds", "From the end of inference to the socket, for each message with events."
+        yield from (f"# HELP {name} {text}", f"# TYPE {name} histogram", *self.added_latency.lines(name))
+        name, text = "egotouch_capture_latency_seconds", "From capture to the end of inference, for each frame with events."
+        yield from (f"# HELP {name} {text}", f"# TYPE {name} histogram", *self.capture_latency.lines(name))
+
+
+def _labelled(label: str, counts: Counter[str] | Counter[int]) -> list[tuple[str, int]]:
+    return [(f'{{{label}="{value}"}}', count) for value, count in sorted(counts.items(), key=str)]
+
+
+def _family(name: str, kind: str, text: str, samples: list[tuple[str, int]]) -> Iterator[str]:
+    yield f"# HELP {name} {text}"
+    yield f"# TYPE {name} {kind}"
+    yield from (f"{name}{labels} {value}" for labels, value in samples)
