@@ -1,3 +1,4 @@
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -38,7 +39,8 @@ def event(kind: EventType, frame: int, force_n: float = 0.0, finger: Finger = Fi
 
 def touch(start: int, end: int, force_n: float = 1.0, finger: Finger = Finger.INDEX, last: EventType = EventType.UP) -> list[TouchEvent]:
     moves = [event(EventType.MOVE, frame, force_n, finger) for frame in range(start + 1, end)]
-    return [event(EventType.DOWN, start, force_n, finger), *moves, event(last, end, 0.0, finger)]
+    contact = [event(EventType.DOWN, start, force_n, finger), *moves, event(last, end, 0.0, finger)]
+    return [replace(each, contact_id=start) for each in contact]
 
 
 def test_a_touch_is_found_late_with_a_known_force_error() -> None:
@@ -115,16 +117,31 @@ def moving_truth(way_mm: float) -> ClipTruth:
     return ClipTruth.from_dict({"fps": FPS, "frames": [frame(i) for i in range(60)], "touches": [{"start_frame": 10, "end_frame": 30}]})
 
 
+def with_kinds(contact: list[TouchEvent], *kinds: EventType) -> list[TouchEvent]:
+    """The contact, in which these events happened at its end as well."""
+    return [*contact, *(replace(event(kind, 31), contact_id=contact[0].contact_id) for kind in kinds)]
+
+
 def test_a_held_true_touch_is_a_long_click_and_a_click_and_a_force_press() -> None:
-    events = [event(EventType.LONG_CLICK, 24), event(EventType.CLICK, 32), event(EventType.FORCE_ENTER, 16), event(EventType.CLICK, 50)]
-    gestures = score(moving_truth(0.0), events).gestures
+    found = with_kinds(touch(11, 31), EventType.LONG_CLICK, EventType.CLICK, EventType.FORCE_ENTER)
     one, none = Count(1, 1, 0, 0), Count(0, 0, 0, 0)
-    assert gestures == {"click": Count(1, 1, 0, 1), "long_click": one, "drag": none, "force_press": one}
+    assert score(moving_truth(0.0), found).gestures == {"click": one, "long_click": one, "drag": none, "force_press": one}
 
 
 def test_a_true_touch_that_moves_on_its_host_is_a_drag() -> None:
-    gestures = score(moving_truth(30.0), [event(EventType.CLICK, 31), event(EventType.DRAG_START, 12)]).gestures
-    assert (gestures["click"], gestures["drag"], gestures["long_click"]) == (Count(0, 0, 0, 1), Count(1, 1, 0, 0), Count(0, 0, 0, 0))
+    gestures = score(moving_truth(30.0), with_kinds(touch(11, 31), EventType.DRAG_START, EventType.FORCE_ENTER)).gestures
+    assert (gestures["click"], gestures["drag"]) == (Count(0, 0, 0, 0), Count(1, 1, 0, 0))
+
+
+def test_another_gesture_than_the_true_one_is_missed_and_false() -> None:
+    gestures = score(moving_truth(30.0), with_kinds(touch(11, 31), EventType.CLICK)).gestures
+    assert (gestures["click"], gestures["drag"]) == (Count(0, 0, 0, 1), Count(1, 0, 1, 0))
+
+
+def test_a_click_of_a_touch_that_was_none_is_false() -> None:
+    false = [replace(each, contact_id=2) for each in [*touch(50, 55), event(EventType.CLICK, 55)]]
+    gestures = score(moving_truth(0.0), [*with_kinds(touch(11, 31), EventType.CLICK), *false]).gestures
+    assert gestures["click"] == Count(1, 1, 0, 1)
 
 
 def test_the_settings_say_what_a_true_drag_is() -> None:
