@@ -25,7 +25,7 @@ class _Player:
 class LiveSimulation:
     """What everybody plays now, and the observations that a camera would give of it. No clock, no threads.
 
-    Where two players are at odds the first one counts: a finger of a hand is there once, and a limb shows one side. Fingers that
+    Where two players are at odds the one who began first counts: a finger of a hand is there once, and a limb shows one side. Fingers that
     vanish are a hand that tracking has lost: a touch of theirs is cancelled.
     """
 
@@ -38,7 +38,10 @@ class LiveSimulation:
 
     def play(self, player: object, fingers: tuple[SimulatedFinger, ...]) -> None:
         """All fingers that `player` plays from now on, in place of those before."""
-        known = self._players.setdefault(player, _Player(()))
+        if not fingers:
+            self.leave(player)
+            return
+        known = self._players.setdefault(player, _Player(fingers))
         known.fingers, known.seen_ns = fingers, None
 
     def leave(self, player: object) -> None:
@@ -47,10 +50,10 @@ class LiveSimulation:
 
     def observe(self, timestamp_ns: int) -> FrameObservation:
         """The next observation; times must rise."""
-        for player in self._players.values():
+        for name, player in tuple(self._players.items()):
             player.seen_ns = timestamp_ns if player.seen_ns is None else player.seen_ns
             if timestamp_ns - player.seen_ns > STALE_NS:
-                player.fingers = ()
+                self.leave(name)
         fingers = self._fingers()
         if fingers:
             self._hosts = tuple(dict.fromkeys(finger.hand.other for finger in fingers))
