@@ -202,6 +202,6 @@ def test_the_app_sends_what_simulated_fingers_do(receiver: Receiver) -> None:
         said = app.stderr.read()
     assert app.returncode == 0
     assert "has thrown" not in said and "Traceback" not in said  # on a busy machine it may say that a listener was slow
-    assert first_x[0] < 0.05 and first_x[-1] > 0.95 and max(first_x) == pytest.approx(first_x[-1], abs=0.02)
+    assert first_x[0] < 0.25 and first_x[-1] > 0.75 and max(first_x) == pytest.approx(first_x[-1], abs=0.02)
     assert receiver.ended == [1, 3, 2, 4] and receiver.alive == ()
     assert most_alive == 2
