@@ -13,6 +13,7 @@ from egotouch_sdk.frame_observation import FrameObservation
 from egotouch_sdk.frame_result import FrameResult
 from egotouch_sdk.gestures import GestureRecognizer, GestureStates
 from egotouch_sdk.host_frame import locate
+from egotouch_sdk.host_frame.exact import has_exact_landmarks, locate_exact
 from egotouch_sdk.joints import Finger, Handedness
 from egotouch_sdk.observation import Fingertip, HostPoint
 from egotouch_sdk.state import FingertipSample, PointerState, Thresholds, TouchStateMachine
@@ -114,7 +115,8 @@ class EventEngine:
 
     def _locate(self, observation: FrameObservation, tip: Fingertip) -> HostPoint | None:
         pair = next(pair for pair in observation.gate.pairs if pair.touching.hand_id == tip.hand_id)
-        return locate(pair, tip.finger, self.config.host, mirrored=self.config.hands.mirrored)
+        place = locate_exact if has_exact_landmarks(pair) else locate
+        return place(pair, tip.finger, self.config.host, mirrored=self.config.hands.mirrored)
 
     def _advance_time(self, timestamp_ns: int) -> None:
         if self._time_ns is not None:

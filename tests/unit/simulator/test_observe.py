@@ -70,6 +70,13 @@ def test_a_limb_turned_in_the_picture_changes_nothing(turn_deg: float) -> None:
     assert_found(asked, *points(asked, view=SimulatedView(turn_rad=radians(turn_deg))))
 
 
+@pytest.mark.parametrize("tilt_deg", [-50, -20, 30, 60])
+@pytest.mark.parametrize("surface", Surface)
+def test_a_limb_seen_at_a_slant_changes_nothing_for_a_finger_on_the_skin(surface: Surface, tilt_deg: float) -> None:
+    asked = SimulatedFinger(surface, *PLACES[surface][0], 0.0, 1.0, radians(40), radians(-60))
+    assert_found(asked, *points(asked, view=SimulatedView(turn_rad=0.5, tilt_rad=radians(tilt_deg))))
+
+
 def test_fingers_of_one_hand_and_of_both_are_told_apart() -> None:
     asked = (
         SimulatedFinger(Surface.PALM, 12.0, 60.0, finger=Finger.INDEX),
