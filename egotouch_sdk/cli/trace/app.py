@@ -92,6 +92,8 @@ class TraceApp(App[int]):
 
     def refresh_trace(self) -> None:
         """Show what has happened since the last time."""
+        if not self.query("#counts"):  # the screen is being taken down
+            return
         ended = self._player.ended.is_set() or self._player.held.is_set()
         if not self.is_paused:
             for step in self._player.take():
