@@ -15,6 +15,7 @@ from websockets.typing import Subprotocol
 
 from egotouch_sdk.clock import now_ns
 from egotouch_sdk.errors import ConfigError
+from egotouch_sdk.frame_result import FrameResult
 from egotouch_sdk.server.access import Access, OpenAccess
 from egotouch_sdk.server.client import WRITE_AHEAD_BYTES, Client, hang_up
 from egotouch_sdk.server.close_code import CloseCode
@@ -26,7 +27,9 @@ from egotouch_sdk.server.journal import Journal
 from egotouch_sdk.server.limits import SECOND_NS, Limits
 from egotouch_sdk.server.metrics import Metrics
 from egotouch_sdk.server.pages import Pages
-from egotouch_sdk.server.session import PushSink, Session
+from egotouch_sdk.server.pushing import PushTarget
+from egotouch_sdk.server.session import Session
+from egotouch_sdk.server.status import StatusBoard, hands_view
 from egotouch_sdk.server.subprotocol import SUBPROTOCOLS, choose
 from egotouch_sdk.server.welcome import ServerInfo
 from egotouch_sdk.touch_event import TouchEvent
@@ -51,6 +54,7 @@ class Settings:
     """How a server is reached and by whom.
 
     `port` 0 takes a free one. `tls` is needed on anything but loopback. `token` protects /metrics where `access` asks for one.
+    `source` is its name for people. `landmarks` lets clients ask for the hands in view. `push` takes what clients push.
     """
 
     host: str = "127.0.0.1"
@@ -62,7 +66,9 @@ class Settings:
     limits: Limits = field(default_factory=Limits)
     info: ServerInfo = field(default_factory=ServerInfo)
     pages: Pages = field(default_factory=Pages)
-    push: PushSink | None = None
+    source: str = ""
+    landmarks: bool = False
+    push: PushTarget | None = None
 
 
 class EventServer:
@@ -80,6 +86,8 @@ class EventServer:
         self._server: Server | None = None
         self._ticker: asyncio.Task[None] | None = None
         self._closing = False
+        self._board = StatusBoard(self.settings.source)
+        self._frame_index = 0
         self._crowd = Crowd(CONNECTIONS_PER_CLIENT * self.settings.limits.max_clients)
         self._front = HttpFront(self.settings.pages, self.settings.door, self.metrics, self._health, self.settings.token)
 
@@ -126,18 +134,30 @@ class EventServer:
             self._server.close()
             await self._server.wait_closed()
 
+    def take_frame(self, timestamp_ns: int, result: FrameResult | None, events: Sequence[TouchEvent], handed_ns: int) -> None:
+        """Publish one frame's events and note what was seen in it; `result` is None for events that no frame brought about."""
+        if result is not None:
+            self._frame_index += 1
+            self.metrics.frames += 1
+            self._board.note(result, handed_ns)
+            if self.settings.landmarks and any(client.session.subscription.landmarks for client in self._clients):
+                view = hands_view(result)
+                for client in self._clients:
+                    client.session.offer_hands(view)
+        self.publish(self._frame_index, timestamp_ns, events, handed_ns)
+        if self.settings.landmarks and not events:
+            self._flush()
+
     def publish(self, frame_index: int, timestamp_ns: int, events: Sequence[TouchEvent], handed_ns: int | None = None) -> None:
         """Publish the events of one frame, captured at `timestamp_ns` and known since `handed_ns`, both on this machine's clock."""
         handed_ns = now_ns() if handed_ns is None else handed_ns
-        self.metrics.frames += 1
         if not events:
             return
         self.metrics.events.update(event.type.value for event in events)
         self.metrics.capture_latency.add((handed_ns - timestamp_ns) / SECOND_NS)
         self.hub.publish(frame_index, timestamp_ns, events, handed_ns)
         sent_before = self.metrics.messages
-        for client in self._clients:
-            client.flush()
+        self._flush()
         self.metrics.added_latency.add((now_ns() - handed_ns) / SECOND_NS, self.metrics.messages - sent_before)
 
     async def _handle(self, connection: ServerConnection) -> None:
@@ -177,6 +197,8 @@ class EventServer:
             _log.exception("a connection ended by a defect of the server")
             await hang_up(connection, CloseCode.SERVER_ERROR, "a defect of the server")
         finally:
+            if settings.push is not None:
+                settings.push.leave(session)
             self.hub.sessions.discard(session)
             self._clients.discard(client)
             self.metrics.clients = len(self._clients)
@@ -184,12 +206,23 @@ class EventServer:
     def _health(self) -> dict[str, object]:
         return {"status": "ok", "frames": self.metrics.frames, "clients": len(self._clients), "version": self.settings.info.version}
 
+    def _flush(self) -> None:
+        for client in self._clients:
+            client.flush()
+
     async def _tick(self) -> None:
+        report_ns = now_ns()
         while True:
             await asyncio.sleep(TICK_S)
+            time_ns = now_ns()
+            if time_ns >= report_ns:
+                report_ns = time_ns + SECOND_NS
+                status = self._board.report(time_ns)
+                for client in self._clients:
+                    client.session.offer_status(status)
             for client in self._clients:
-                client.session.tick(now_ns())
-                client.flush()
+                client.session.tick(time_ns)
+            self._flush()
 
     async def _let_clients_go(self) -> None:
         while self._clients:

@@ -15,6 +15,7 @@ from egotouch_sdk.server.journal import Journal
 from egotouch_sdk.server.limits import MILLISECOND_NS, SECOND_NS, Limits
 from egotouch_sdk.server.outbox import Outbox
 from egotouch_sdk.server.pointer_view import Pointer, PointerView, Run
+from egotouch_sdk.server.pushing import PushTarget
 from egotouch_sdk.server.rate import TokenBucket
 from egotouch_sdk.server.subprotocol import Subprotocol
 from egotouch_sdk.server.subscription import Subscription
@@ -27,9 +28,6 @@ from egotouch_sdk.wire.gen import egotouch_pb2 as pb
 SHARED_NS = 2 * MILLISECOND_NS
 #: More pointers than two hands have; a Resume that names more is malformed.
 MAX_HELD = 64
-
-#: Takes what a client pushes: pictures, hands, or a simulator's fingers.
-PushSink = Callable[[pb.ClientFrame | pb.ClientHands | pb.SimulatedPointers], None]
 
 
 class State(StrEnum):
@@ -57,7 +55,7 @@ class Session:
         access: Access | None = None,
         limits: Limits | None = None,
         info: ServerInfo | None = None,
-        push: PushSink | None = None,
+        push: PushTarget | None = None,
     ) -> None:
         self.state = State.AWAITING_HELLO
         self.close: Close | None = None
@@ -183,12 +181,12 @@ class Session:
 
     def _on_push(self, message: pb.ClientMessage, now_ns: int) -> None:
         kind = message.WhichOneof("body")
-        if self._push is not None and kind is not None:
-            self._push(getattr(message, kind))
+        if self._push is not None and kind is not None and kind in self._push.kinds:
+            self._push.take(self, getattr(message, kind))
         elif self._commands.take(now_ns):
-            self._warn("not_a_source", "this server has its own source; start it with one that takes what clients push")
+            self._warn("not_a_source", "this server's source does not take what this client pushes")
         else:
-            self.end(CloseCode.TOO_MANY_COMMANDS, "this server has its own source and takes no frames, hands or fingers")
+            self.end(CloseCode.TOO_MANY_COMMANDS, "this server's source does not take what this client pushes")
 
     # ---------------------------------------------------------------------------------------------------------- server to client
 

@@ -471,16 +471,31 @@ def test_too_many_commands_close(world: ServedWorld) -> None:
     client.expect_closed(CloseCode.TOO_MANY_COMMANDS)
 
 
+class PushedFrames:
+    """Takes pictures from clients."""
+
+    kinds = frozenset({"frame"})
+
+    def __init__(self) -> None:
+        self.frames: list[object] = []
+
+    def take(self, client: object, pushed: object) -> None:
+        self.frames.append(pushed)
+
+    def leave(self, client: object) -> None:
+        self.frames.clear()
+
+
 def test_pushed_frames_go_to_a_server_that_wants_them(world: ServedWorld) -> None:
-    frames: list[object] = []
-    client, refused = world.connect(push=frames.append), world.join()
+    camera = PushedFrames()
+    client, refused = world.connect(push=camera), world.join()
     client.say_hello()
     pushed = pb.ClientMessage(frame=pb.ClientFrame(jpeg=b"jpeg", timestamp_ns=3))
     for _ in range(100):
         client.send(pushed)
     refused.send(pushed)
     client.expect_open()
-    assert frames == [pushed.frame] * 100
+    assert camera.frames == [pushed.frame] * 100
     assert refused.model.others[-1].warning.code == "not_a_source"
 
 
