@@ -16,8 +16,10 @@ from egotouch_sdk.events.order import RAW
 from egotouch_sdk.touch_event import EventType, TouchEvent
 from tests.properties.finger_programs import play
 
-#: How many streams hypothesis draws in the long run; set it to 1000000 for the thorough one (about half an hour).
+#: How many streams hypothesis draws in the long run; set it to 1000000 for the thorough one (about ten minutes on an idle core).
 MANY = int(os.environ.get("EGOTOUCH_GRAMMAR_STREAMS", "5000"))
+#: Streams to an example: drawing one alone would take as long as checking it.
+BATCH = 10
 #: Hypothesis remembers every example of a run to avoid repeats, so a long run is cut into blocks with a seed each.
 BLOCK = 20_000
 PROGRAMS = st.binary(max_size=48)
@@ -112,24 +114,25 @@ def test_many_random_streams_keep_the_grammar() -> None:
     streams = violations = 0
     start_s = time.perf_counter()
 
-    def check(program: bytes) -> None:
+    def check(programs: list[bytes]) -> None:
         nonlocal streams, violations
-        verifier = GrammarVerifier()
-        counts.update(event.type for event in play(program, verifier))
-        streams += 1
-        violations += len(verifier.violations)
-        assert verifier.violations == []
+        for program in programs:
+            verifier = GrammarVerifier()
+            counts.update(event.type for event in play(program, verifier))
+            streams += 1
+            violations += len(verifier.violations)
+            assert verifier.violations == []
 
     block = 0
     while streams < MANY:
         options = settings(
-            max_examples=min(BLOCK, MANY - streams),
+            max_examples=-(-min(BLOCK, MANY - streams) // BATCH),
             deadline=None,
             database=None,
             phases=[Phase.generate, Phase.shrink],
             suppress_health_check=[HealthCheck.too_slow],
         )
-        seed(block)(options(given(PROGRAMS)(check)))()
+        seed(block)(options(given(st.lists(PROGRAMS, min_size=BATCH, max_size=BATCH))(check)))()
         block += 1
         if block % 5 == 0:
             print(f"{streams} streams, {counts.total()} events, {violations} violations, {time.perf_counter() - start_s:.0f} s", flush=True)

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from egotouch_sdk.errors import LayoutError
 from egotouch_sdk.events.order import MAY_FOLLOW
 from egotouch_sdk.joints import FINGERS, Handedness
-from egotouch_sdk.skin import Region, SkinButton, SkinKeypad, SkinSlider, SkinViewGroup
+from egotouch_sdk.skin import Region, SkinButton, SkinKeypad, SkinSlider, SkinViewGroup, layout_from_dict, layout_to_dict
 from egotouch_sdk.skin.table import TABLE, ViewInput, ViewState
 from egotouch_sdk.surface import Surface
 from egotouch_sdk.touch_event import EventType, TouchEvent
@@ -253,6 +253,39 @@ def test_keys_never_overlap_and_mirror_each_other_on_the_two_hands(surface: Surf
         bx, by = right.axes.to_view(*b.region.centre_mm)
         centre_a, centre_b = left.axes.to_view(left.x_mm, left.y_mm), right.axes.to_view(right.x_mm, right.y_mm)
         assert abs(ax - centre_a[0] - bx + centre_b[0]) < 1e-9 and abs(ay - centre_a[1] - by + centre_b[1]) < 1e-9
+
+
+JSON = st.recursive(
+    st.none() | st.booleans() | st.integers() | st.floats() | st.text(max_size=5) | st.sampled_from(["palm", "left", "button", "12"]),
+    lambda inner: st.lists(inner, max_size=4) | st.dictionaries(st.text(max_size=5), inner, max_size=4),
+    max_leaves=8,
+)
+
+
+@given(st.data())
+@settings(max_examples=300, deadline=None)
+def test_a_layout_with_anything_changed_in_it_is_read_or_refused_with_a_reason(data: st.DataObject) -> None:
+    """Any value in the place of any other, anywhere in a layout, gives a layout or a `LayoutError`."""
+    region = {"surface": "palm", "host": "left", "rounded": {"x_mm": 0, "y_mm": 40, "width_mm": 20, "height_mm": 20, "corner_mm": 3}}
+    slider = {"type": "slider", "name": "s", "region": {"surface": "palm", "points_mm": [[0, 0], [9, 0], [9, 9]]}}
+    slider |= {"start_mm": [0, 0], "end_mm": [0, 20], "step": 0.1, "value": 0.5}
+    keypad = {"type": "keypad", "name": "k", "surface": "palm", "host": "left", "rows": ["12", ["3", "4"]], "x_mm": 0, "y_mm": 40}
+    content = {"views": [{"type": "button", "name": "b", "region": region, "slop_mm": 1}, slider, keypad | {"pitch_mm": 15}]}
+    for _ in range(data.draw(st.integers(0, 2))):
+        place: object = content
+        while isinstance(place, dict | list) and place:
+            key = data.draw(st.sampled_from(sorted(place) if isinstance(place, dict) else range(len(place))))
+            if not isinstance(place[key], dict | list) or data.draw(st.integers(0, 4)) == 0:
+                place[key] = data.draw(JSON)
+                break
+            place = place[key]
+    try:
+        layout = layout_from_dict(content)
+    except LayoutError as error:
+        assert error.message
+        return
+    assert layout_from_dict(layout_to_dict(layout)) == layout
+    SkinViewGroup(layout)
 
 
 def test_the_table_has_a_way_out_of_every_state() -> None:
