@@ -20,7 +20,7 @@ HANDS := egotouch_sdk/models/hands/manifest.json
 AGAIN := $(if $(wildcard $(HANDS)),,FORCE)
 PARTS := pyproject.toml hatch_build.py $(wildcard egotouch_sdk/hands/convert/*.py)
 
-.PHONY: help demo test lint bench clean FORCE
+.PHONY: help demo test lint proto bench clean FORCE
 .DEFAULT_GOAL := help
 
 help: ## list the targets
@@ -35,6 +35,9 @@ test: lint ## ruff, mypy and all tests
 lint: $(VENV)/.dev ## ruff and mypy --strict
 	$(BIN)/ruff check .
 	$(BIN)/mypy
+
+proto: $(VENV)/.dev ## make the Python classes of the schema again
+	$(BIN)/python proto/generate.py
 
 bench: $(VENV)/.run ## milliseconds per stage and frames per second on this machine
 	$(BIN)/egotouch bench $(ARGS)
