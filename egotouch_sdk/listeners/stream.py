@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 from collections import deque
 from collections.abc import Awaitable, Callable, Iterable
+from contextlib import suppress
 from enum import StrEnum
 from threading import Lock
 from types import TracebackType
@@ -119,5 +120,6 @@ class EventStream:
 
     def _wake(self) -> None:
         waiter, self._waiter = self._waiter, None
-        if waiter is not None and self._loop is not None and not self._loop.is_closed():
-            self._loop.call_soon_threadsafe(waiter.set)
+        if waiter is not None and self._loop is not None:
+            with suppress(RuntimeError):  # the loop has been closed, and its consumer with it
+                self._loop.call_soon_threadsafe(waiter.set)

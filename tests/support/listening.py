@@ -13,7 +13,8 @@ from egotouch_sdk.state import Thresholds
 from egotouch_sdk.surface import Surface
 
 FRAME_NS = 33_333_333
-HOVER_MM = 8.0
+OVER = SimulatedFinger(Surface.PALM, 0.0, 50.0, 8.0)
+ON = SimulatedFinger(Surface.PALM, 0.0, 50.0, 0.0, 1.0)
 
 
 class PlayedFinger(ObservationSource):
@@ -21,27 +22,25 @@ class PlayedFinger(ObservationSource):
 
     def __init__(self, *, is_live: bool = False) -> None:
         self._is_live = is_live
-        self._queue: SimpleQueue[FrameObservation | Exception | None] = SimpleQueue()
+        self._queue: SimpleQueue[list[FrameObservation] | Exception | None] = SimpleQueue()
         self._played = 0
         self.closed = 0
 
-    def hover(self, frames: int = 3) -> None:
-        """Be seen over the skin; three frames get through the median filter."""
-        self._see(frames, SimulatedFinger(Surface.PALM, 0.0, 50.0, HOVER_MM))
+    def hover(self) -> None:
+        """Be seen over the skin."""
+        self._see(OVER)
 
-    def touch(self, frames: int = 3, force_n: float = 1.0) -> None:
-        """Be seen on the skin."""
-        self._see(frames, SimulatedFinger(Surface.PALM, 0.0, 50.0, 0.0, force_n))
+    def touch(self) -> None:
+        """Come down onto the skin and stay."""
+        self._see(OVER, ON)
 
     def tap(self) -> None:
         """Hover, touch, hover: one DOWN, one UP, one CLICK."""
-        self.hover()
-        self.touch()
-        self.hover()
+        self._see(OVER, ON, OVER)
 
-    def leave(self, frames: int = 4) -> None:
+    def leave(self) -> None:
         """Show only the host hand."""
-        self._see(frames, None)
+        self._see(None)
 
     def end(self) -> None:
         """No more frames."""
@@ -51,17 +50,20 @@ class PlayedFinger(ObservationSource):
         """Raise in the reader."""
         self._queue.put(error)
 
-    def _see(self, frames: int, finger: SimulatedFinger | None) -> None:
-        for _ in range(frames):
+    def _see(self, *places: SimulatedFinger | None) -> None:
+        """Three frames of each place, which get through the median filter, handed over together: a camera that does not stall."""
+        frames = []
+        for finger in (place for place in places for _ in range(3)):
             scene = SimulatedScene(() if finger is None else (finger,))
-            self._queue.put(observe(scene, self._played, self._played * FRAME_NS))
+            frames.append(observe(scene, self._played, self._played * FRAME_NS))
             self._played += 1
+        self._queue.put(frames)
 
     def __iter__(self) -> Iterator[FrameObservation]:
         while (item := self._queue.get()) is not None:
             if isinstance(item, Exception):
                 raise item
-            yield item
+            yield from item
 
     def close(self) -> None:
         self.closed += 1

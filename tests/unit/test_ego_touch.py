@@ -3,23 +3,23 @@
 from __future__ import annotations
 
 import asyncio
-import gc
 import signal
 import threading
 import weakref
 
 import pytest
 
-from egotouch_sdk import EgoTouch, TouchConfig, TouchEvent, TouchListener, TrackingState
+from egotouch_sdk import EgoTouch, PushSource, TouchConfig, TouchEvent, TouchListener, TrackingState
 from egotouch_sdk.errors import ConfigError, SourceError
 from egotouch_sdk.events import GrammarVerifier
 from egotouch_sdk.joints import Handedness
 from egotouch_sdk.listeners import ErrorEvent
 from egotouch_sdk.observation import GateReason
+from egotouch_sdk.sources.push import WhenFull
 from egotouch_sdk.touch_event import CancelReason, EventType
 from tests.support.hands import make_hand
 from tests.support.listening import PlayedFinger
-from tests.support.sources import ScriptedHands
+from tests.support.sources import ScriptedHands, grey_frame
 
 PATIENCE_S = 30.0
 TAP = ["hover_enter", "down", "up", "click"]
@@ -101,7 +101,6 @@ def test_stop_cancels_an_open_touch_and_is_idempotent() -> None:
     heard = Heard(et)
     et.start()
     et.start()
-    finger.hover()
     finger.touch()
     heard.wait_for("down")
     et.stop()
@@ -121,7 +120,6 @@ def test_an_exception_in_the_block_stops_too() -> None:
     def app() -> None:
         with et:
             et.start()
-            finger.hover()
             finger.touch()
             heard.wait_for("down")
             raise ValueError("app")
@@ -143,10 +141,9 @@ def test_a_listener_may_stop_the_run() -> None:
 
 def test_a_stalled_camera_cancels_and_goes_on() -> None:
     finger = PlayedFinger(is_live=True)
-    with EgoTouch(finger, TouchConfig(state={"stall_ms": 50}, debug=True)) as et:
+    with EgoTouch(finger, TouchConfig(state={"stall_ms": 100}, debug=True)) as et:
         heard = Heard(et)
         et.start()
-        finger.hover()
         finger.touch()
         cancel = heard.wait_for("cancel")
         assert cancel.reason is CancelReason.SOURCE_STALLED
@@ -159,7 +156,6 @@ def test_a_stalled_camera_cancels_and_goes_on() -> None:
 
 def test_a_source_that_fails_cancels_and_is_heard_twice() -> None:
     finger = PlayedFinger()
-    finger.hover()
     finger.touch()
     finger.fail(SourceError("the camera was unplugged"))
     et = EgoTouch(finger, realtime=False)
@@ -189,7 +185,6 @@ def test_ctrl_c_ends_the_run_without_an_exception() -> None:
     with EgoTouch(finger, TouchConfig(state={"stall_ms": 60_000})) as et:
         heard = Heard(et)
         et.onTouchDown(lambda event: signal.raise_signal(signal.SIGINT))
-        finger.hover()
         finger.touch()
         et.run()
     assert heard.types == ["hover_enter", "down", "cancel", "hover_exit"]
@@ -210,9 +205,9 @@ def test_a_throwing_listener_does_not_stop_the_others(caplog: pytest.LogCaptureF
 
 def test_tracking_is_reported_when_it_changes() -> None:
     finger = PlayedFinger()
-    finger.leave(3)
-    finger.hover(3)
-    finger.leave(3)
+    finger.leave()
+    finger.hover()
+    finger.leave()
     finger.end()
     with EgoTouch(finger, realtime=False) as et:
         heard = Heard(et)
@@ -251,10 +246,7 @@ def test_perception_has_no_place_before_observations() -> None:
     assert finger.closed
 
 
-def test_a_headsets_own_hands_and_pushed_frames(caplog: pytest.LogCaptureFixture) -> None:
-    from egotouch_sdk import PushSource
-    from tests.support.sources import grey_frame
-
+def test_a_headsets_own_hands_and_pushed_frames() -> None:
     hands = ScriptedHands()
     hands.hands = (make_hand(),)
     camera = PushSource(capacity=8)
@@ -306,13 +298,13 @@ def test_a_consumer_that_stops_early_frees_its_queue_and_ends_the_block() -> Non
 
     async def consume() -> None:
         async with EgoTouch(finger, TouchConfig(state={"stall_ms": 60_000})) as et:
+            freed = threading.Event()
             stream = et.events("down")
-            gone = weakref.ref(stream)
+            weakref.finalize(stream, freed.set)
             async for _ in stream:
                 break
             del stream
-            gc.collect()
-            assert gone() is None
+            assert await asyncio.to_thread(freed.wait, PATIENCE_S)
 
     asyncio.run(asyncio.wait_for(consume(), PATIENCE_S))
     assert finger.closed
@@ -328,3 +320,12 @@ def test_a_stream_asked_for_after_the_end_is_empty() -> None:
         return [event async for event in et.events()]
 
     assert asyncio.run(consume()) == []
+
+
+def test_stop_ends_a_source_that_waits_for_the_app() -> None:
+    camera = PushSource(when_full=WhenFull.BLOCK)
+    et = EgoTouch(camera, hands=ScriptedHands())
+    et.start()
+    et.stop()
+    with pytest.raises(SourceError, match="closed"):
+        camera.push(grey_frame(0).image)
