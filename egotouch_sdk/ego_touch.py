@@ -10,7 +10,6 @@ from pathlib import Path
 from threading import Lock
 from types import TracebackType
 from typing import Self
-from weakref import ReferenceType, ref
 
 from egotouch_sdk.capture import Capture, Engine
 from egotouch_sdk.clock import now_ns
@@ -20,6 +19,7 @@ from egotouch_sdk.errors import ConfigError, SourceError
 from egotouch_sdk.hands.base import HandSource
 from egotouch_sdk.listeners import Delivery, Dispatcher, ErrorEvent, Listeners, TrackingState
 from egotouch_sdk.listeners.stream import EventStream
+from egotouch_sdk.listeners.stream_hub import StreamHub
 from egotouch_sdk.sources import FrameSource, ObservationSource, open_source
 from egotouch_sdk.touch import TouchModel
 from egotouch_sdk.touch_event import TouchEvent
@@ -79,9 +79,7 @@ class EgoTouch(Listeners):
         self._config = config
         self._stopped = False
         self._failure: Exception | None = None
-        self._streams_lock = Lock()
-        self._streams: list[ReferenceType[EventStream]] = []
-        self._is_over = False
+        self._streams = StreamHub()
 
     @property
     def config(self) -> TouchConfig:
@@ -156,11 +154,7 @@ class EgoTouch(Listeners):
         Raises `ConfigError` for an unknown type or overflow.
         """
         stream = EventStream(types, queue, overflow, self._start_for_stream)
-        with self._streams_lock:
-            if self._is_over:
-                stream.end()
-            self._streams = [known for known in self._streams if known() is not None]
-            self._streams.append(ref(stream))
+        self._streams.add(stream)
         return stream
 
     def __enter__(self) -> Self:
@@ -199,25 +193,13 @@ class EgoTouch(Listeners):
 
     def _publish(self, items: Sequence[TouchEvent | TrackingState]) -> None:
         self._dispatcher.post(items)
-        events = [item for item in items if isinstance(item, TouchEvent)]
-        for stream in self._live_streams():
-            stream.push(events)
+        self._streams.push([item for item in items if isinstance(item, TouchEvent)])
 
     def _on_end(self, failure: Exception | None) -> None:
         self._failure = failure
         if failure is not None:
             self._dispatcher.post([ErrorEvent(failure, "source")])
-        self._end_streams(failure)
-
-    def _end_streams(self, failure: Exception | None) -> None:
-        with self._streams_lock:
-            self._is_over = True
-        for stream in self._live_streams():
-            stream.end(failure)
-
-    def _live_streams(self) -> list[EventStream]:
-        with self._streams_lock:
-            return [stream for known in self._streams if (stream := known()) is not None]
+        self._streams.end(failure)
 
     def _has_ended(self, timeout_s: float) -> bool:
         return self._capture is None or self._capture.wait(timeout_s)
@@ -231,7 +213,7 @@ class EgoTouch(Listeners):
                 self._given_source.close()
         else:
             capture.stop(wait=not self._dispatcher.is_current_thread)
-        self._end_streams(None)
+        self._streams.end()
         self._dispatcher.stop()
 
     def _raise_failure(self) -> None:

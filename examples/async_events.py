@@ -5,6 +5,7 @@ python examples/async_events.py [SOURCE]     SOURCE: camera index (default 0), v
 
 import asyncio
 import sys
+from contextlib import suppress
 
 from egotouch_sdk import EgoTouch
 
@@ -26,4 +27,5 @@ async def main() -> None:
         await asyncio.gather(count_clicks(et), follow(et))
 
 
-asyncio.run(main())
+with suppress(KeyboardInterrupt):  # Ctrl-C stops the camera on its way out
+    asyncio.run(main())
