@@ -181,7 +181,8 @@ class StateConfig(_Section):
     )
     stall_ms: float = Field(default=250.0, gt=0, description="A longer gap between two frames cancels every touch.")
     max_speed_mm_s: float = Field(
-        default=3000.0, gt=0, description="No fingertip moves faster across the image or the host; fast reaches peak at about 3 m/s."
+        default=3000.0, gt=0, description="No touch moves faster across the host limb, and no hovering finger across limb and image; "
+        "fast reaches peak at about 3 m/s."
     )
     jump_slack_mm: float = Field(default=20.0, ge=0, description="Landmark noise that is allowed on top of the speed limit (our choice).")
 

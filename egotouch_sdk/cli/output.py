@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import sys
+from math import hypot
 from typing import Any
 
 from egotouch_sdk.clock import now_ns
@@ -20,12 +21,21 @@ def print_json(value: Any) -> None:
 
 
 def event_line(event: TouchEvent) -> str:
-    """One event for people: time, what, which finger, how sure, how hard, where in the image."""
-    words = f"{event.timestamp_ns / 1e9:9.3f} s  {event.type.value:<11}  {event.hand.value:<5} {event.finger.value:<6}"
+    """One event for people: time, what, which finger, how sure, where in the image, and what matters to its kind."""
+    words = f"{event.timestamp_ns / 1e9:9.3f} s  {event.type.value:<12}  {event.hand.value:<5} {event.finger.value:<6}"
     place = f"p {event.touch_probability:.2f}  at ({event.image_x:.2f}, {event.image_y:.2f})"
-    force = f"  {event.force_n:.1f} N" if event.type is EventType.DOWN else ""
     reason = f"  {event.reason.value}" if event.reason else ""
-    return f"{words}  {place}{force}{reason}"
+    return f"{words}  {place}{_detail(event)}{reason}"
+
+
+def _detail(event: TouchEvent) -> str:
+    if event.type in (EventType.DOWN, EventType.FORCE_ENTER, EventType.LONG_CLICK):
+        return f"  {event.force_n:.1f} N"
+    if event.type in (EventType.DRAG_START, EventType.DRAG_END):
+        return f"  {hypot(event.dx_mm, event.dy_mm):.0f} mm"
+    if event.type is EventType.FLING:
+        return f"  {hypot(event.velocity_x_mm_s, event.velocity_y_mm_s):.0f} mm/s"
+    return ""
 
 
 class Progress:
