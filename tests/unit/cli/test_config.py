@@ -43,3 +43,11 @@ def test_the_environment_reaches_the_command_line(egotouch: Command, clip: Path,
     code, _, err = egotouch("run", clip)
     assert code == 1
     assert err.endswith("EGOTOUCH_GESTURES__TOUCH_SLOP names no setting. Did you mean EGOTOUCH_GESTURES__TOUCH_SLOP_MM?\n")
+
+
+def test_a_preset_a_file_and_a_flag_go_together(egotouch: Command, clip: Path, tmp_path: Path) -> None:
+    (tmp_path / "mine.toml").write_text("[gestures]\ntouch_slop_mm = 2.0\n")
+    assert egotouch("run", clip, "--preset", "forgiving", "--config", tmp_path / "mine.toml", "--threads", "1")[0] == 0
+    code, _, err = egotouch("run", clip, "--preset", "ios")
+    assert code == 2
+    assert "forgiving" in err
