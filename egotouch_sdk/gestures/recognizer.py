@@ -54,6 +54,7 @@ from dataclasses import dataclass, field, replace
 from math import hypot
 
 from egotouch_sdk.config import GestureConfig
+from egotouch_sdk.errors import GrammarError
 from egotouch_sdk.gestures.clicks import ClickMemory
 from egotouch_sdk.gestures.table import (
     CLOSING,
@@ -112,7 +113,10 @@ class GestureRecognizer:
         self._contacts: dict[int, _Contact] = {}
 
     def feed(self, events: Iterable[TouchEvent]) -> tuple[TouchEvent, ...]:
-        """Take raw events in their order and return them with the derived ones among them."""
+        """Take raw events in their order and return them with the derived ones among them.
+
+        Raises `GrammarError` for an event of a contact whose DOWN was not fed.
+        """
         return tuple(derived for event in events for derived in self._feed(event))
 
     def forget_clicks(self) -> None:
@@ -130,7 +134,9 @@ class GestureRecognizer:
             return
         if event.type is EventType.DOWN:
             self._contacts[event.pointer_id] = _Contact(event, self._clicks.follows(event), VelocityTracker(self._config))
-        contact = self._contacts[event.pointer_id]
+        contact = self._contacts.get(event.pointer_id)
+        if contact is None:
+            raise GrammarError(f"{event.type} of pointer {event.pointer_id} comes without a down", hint="Feed every raw event, in order")
         event = self._with_velocity(contact, event)
         types = self._advance(contact, event)
         if event.type in _ENDS:
