@@ -90,7 +90,7 @@ def layout_to_dict(layout: SkinLayout) -> dict[str, Any]:
 def _item(view: object, number: int) -> SkinItem:
     name = view.get("name") if isinstance(view, Mapping) else None
     where = f"view {name}" if isinstance(name, str) and name else f"view {number}"
-    if not isinstance(view, Mapping) or view.get("type") not in _KINDS:
+    if not isinstance(view, Mapping) or not isinstance(view.get("type"), str) or view["type"] not in _KINDS:
         raise LayoutError(f"{where} has no known type", hint=f"Set type to one of {', '.join(_KINDS)}")
     kind = _KINDS[view["type"]]
     required = [field.name for field in fields(kind) if field.default is MISSING]
@@ -146,7 +146,7 @@ def _points(value: object, key: str, where: str) -> tuple[tuple[float, float], .
 
 
 def _number(value: object, key: str, where: str) -> float:
-    if isinstance(value, bool) or not isinstance(value, int | float):
+    if isinstance(value, bool) or not isinstance(value, int | float) or not abs(value) < 1e9:
         raise LayoutError(f"{where}: {key} is {value!r}", hint="Give a number")
     return float(value)
 

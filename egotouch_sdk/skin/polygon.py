@@ -13,6 +13,8 @@ Segment = tuple[Point, Point]
 MIN_AREA_MM2 = 1.0
 #: More corners than any shape on skin needs; it bounds the work of a hit test (our choice).
 MAX_CORNERS = 256
+#: No limb reaches farther from its wrist (our choice).
+MAX_MM = 1000.0
 #: Corners of a circle: its edges lie at most 0.5 % of the radius inside (1 - cos(pi / 32)).
 CIRCLE_CORNERS = 32
 

@@ -38,8 +38,8 @@ class Region:
         object.__setattr__(self, "points_mm", points)
         if not 3 <= len(points) <= polygon.MAX_CORNERS:
             raise LayoutError(f"a region has {len(points)} corners", hint=f"Give 3 to {polygon.MAX_CORNERS} points (x_mm, y_mm)")
-        if not all(isfinite(value) for point in points for value in point):
-            raise LayoutError(f"a region has a corner that is no number: {points}", hint="Give millimetres in the host frame")
+        if not all(abs(value) <= polygon.MAX_MM for point in points for value in point):
+            raise LayoutError(f"a region has a corner on no limb: {points}", hint="Give millimetres in the host frame")
         if abs(polygon.signed_area(points)) < polygon.MIN_AREA_MM2:
             raise LayoutError(f"a region is empty: {points}", hint="Its corners must enclose at least 1 mm² of skin, in order")
         if polygon.crosses_itself(points):

@@ -62,3 +62,22 @@ def test_a_wrong_source_is_said_in_one_line() -> None:
     done = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False, env=ENVIRONMENT)
     assert done.returncode == 1
     assert done.stderr.startswith("app.py: no such source: nothing.mp4.") and done.stderr.count("\n") == 1
+
+
+def test_in_a_terminal_keys_light_up_under_the_finger() -> None:
+    pty = pytest.importorskip("pty")
+    ours, theirs = pty.openpty()
+    app = subprocess.Popen([sys.executable, str(EXAMPLE / "app.py"), str(EXAMPLE / "dial.yaml"), "--fast"], stdout=theirs, env=ENVIRONMENT)
+    os.close(theirs)
+    shown = bytearray()
+    try:
+        while chunk := os.read(ours, 65536):
+            shown += chunk
+    except OSError:  # the way a terminal says that nobody writes to it any more
+        pass
+    os.close(ours)
+    assert app.wait() == 0
+    screens = shown.decode().split("\x1b[H\x1b[J")
+    assert any("\x1b[4;48;5;242m   4   \x1b[0m" in screen for screen in screens), "4 was hovered over"
+    assert any("\x1b[30;48;5;155m   4   \x1b[0m" in screen and "1.0 N on 4" in screen for screen in screens), "4 was pressed with 1 N"
+    assert "+49301" in screens[-1] and "Dialled +49301" in screens[-1]

@@ -75,6 +75,9 @@ def test_a_keypad_may_say_how_it_is_read() -> None:
     ("change", "message"),
     [
         ({"type": "buton"}, "view ok has no known type"),
+        ({"type": ["button"]}, "view ok has no known type"),
+        ({"slop_mm": 10**400}, "view ok: slop_mm is 1000"),
+        ({"slop_mm": float("nan")}, "view ok: slop_mm is nan"),
         ({"lable": "x"}, r"view ok: there is no key 'lable'\. Did you mean label\?"),
         ({"slop_mm": "3"}, "view ok: slop_mm is '3'"),
         ({"slop_mm": True}, "view ok: slop_mm is True"),

@@ -56,7 +56,8 @@ def test_helpers_make_what_they_say() -> None:
         (tuple((k, k * k) for k in range(257)), "257 corners"),
         (((0, 0), (10, 0), (20, 0)), "empty"),
         (((0, 0), (0.1, 0), (0, 0.1)), "empty"),
-        (((0, 0), (10, 0), (nan, 10)), "no number"),
+        (((0, 0), (10, 0), (nan, 10)), "on no limb"),
+        (((0, 0), (10, 0), (1e200, 1e200)), "on no limb"),
         (((0, 0), (10, 10), (20, 0), (20, 30), (5, -5)), "crosses"),
         (((0, 0), (30, 0), (30, 20), (30, 10), (0, 20)), "crosses"),  # an edge that runs back on itself
         (((0, 0), (20, 0), (20, 20), (10, 0), (0, 20)), "crosses"),  # a corner on another edge
