@@ -5,7 +5,7 @@
     ├── SourceError        a camera, file or folder gives no usable frames
     ├── FrameError         an array or data object has the wrong shape, type or range
     ├── ModelError         a model file is missing, altered or of the wrong kind
-    ├── GrammarError       events break the event grammar (only ever raised in debug mode)
+    ├── GrammarError       events break the event grammar (of the SDK's own events only in debug mode)
     ├── LayoutError        a skin layout cannot be built: a bad region, a name used twice, an unknown key
     ├── RecordingError     a recording cannot be read, or was made by an incompatible version
     ├── ProtocolError      a message of the wire protocol is malformed or out of order
