@@ -8,10 +8,11 @@ from typing import Any
 import numpy as np
 from scipy.spatial import cKDTree
 
-from egotouch_sdk.joints import FINGERS, Finger
+from egotouch_sdk.joints import FINGERS, Finger, HandJoint
 from egotouch_sdk.synthetic.backdrop import calm_texture
 from egotouch_sdk.synthetic.contact import Tissue
 from egotouch_sdk.synthetic.hand_rig import HandRig
+from egotouch_sdk.synthetic.host_truth import host_point
 from egotouch_sdk.synthetic.lights import Lights, draw_lights
 from egotouch_sdk.synthetic.linalg import Array, reject_from, unit
 from egotouch_sdk.synthetic.plan import ScenePlan
@@ -140,13 +141,13 @@ class Take:
             origin, self._centre + turn, unit(self._aim.up + 0.012 * sway(5, time_s) * self._aim.right), _FOV_RAD, WIDTH_PX, HEIGHT_PX
         )
 
+    def truth(self, frame: int) -> dict[str, Any]:
+        """What is true about frame 0 .. `frames` - 1, without rendering it (JSON-ready)."""
+        return self._truth(*self._posed(frame))
+
     def render(self, frame: int) -> TakeFrame:
         """Render frame 0 .. `frames` - 1."""
-        time_s = frame / FPS
-        now = moment(self._shot, time_s)
-        stage = self._stage(now, time_s, self._aim)
-        touch = stage.at(force_n=now.force_n, hover_mm=now.hover_mm)
-        camera = self._camera(time_s)
+        touch, stage, camera, now = self._posed(frame)
         layers = render_layers(
             touch.host,
             touch.touching,
@@ -160,11 +161,18 @@ class Take:
         )[0]
         return TakeFrame(layers, self._truth(touch, stage, camera, now))
 
+    def _posed(self, frame: int) -> tuple[Touch, Stage, Camera, Moment]:
+        time_s = frame / FPS
+        now = moment(self._shot, time_s)
+        stage = self._stage(now, time_s, self._aim)
+        return stage.at(force_n=now.force_n, hover_mm=now.hover_mm), stage, self._camera(time_s), now
+
     def _truth(self, touch: Touch, stage: Stage, camera: Camera, now: Moment) -> dict[str, Any]:
         tip = touch.landmarks_m[self._shot.finger.tip]
         at = camera.project(np.vstack([tip, stage.host_landmarks_m, touch.landmarks_m]))
         focal_px = WIDTH_PX / 2 / np.tan(_FOV_RAD / 2)
         act = self._shot.acts[now.act]
+        point, host_mm = host_point(stage, touch), stage.host_landmarks_m * 1e3
         return {
             "touching": now.force_n > 0,
             "force_n": round(now.force_n, 4),
@@ -177,6 +185,9 @@ class Take:
             "tip_px": _rounded(at[:1])[0],
             "px_per_mm": round(float(focal_px / at[0, 2] / 1e3), 4),
             "pitch_rad": round(self._pitch(touch, stage), 4),
+            "yaw_rad": round(point.yaw_rad, 4),
+            "at_mm": [round(point.x_mm, 2), round(point.y_mm, 2)],
+            "palm_mm": round(float(np.linalg.norm(host_mm[HandJoint.MIDDLE_FINGER_MCP] - host_mm[HandJoint.WRIST])), 2),
             "landmarks_px": {"left": _rounded(at[1:22]), "right": _rounded(at[22:])},
         }
 
