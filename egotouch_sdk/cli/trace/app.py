@@ -13,16 +13,19 @@ from textual.widgets import Footer, RichLog, Static
 
 from egotouch_sdk.cli.trace.entries import Entry, Trace
 from egotouch_sdk.cli.trace.lines import HEADER, plain_line
-from egotouch_sdk.cli.trace.panels import LOG_HEADER, count_text, entry_text, pointer_table, status_text
+from egotouch_sdk.cli.trace.panels import count_text, entry_text, log_header, pointer_table, status_text
 from egotouch_sdk.cli.trace.player import Player, Step
 
 #: The screen is drawn again this often; events are never lost in between.
 REFRESH_HZ: Final = 20.0
+#: A screen of so many columns has room for everything.
+WIDE_FROM: Final = 130
 #: So many entries are kept for saving and for showing the moves again.
 MAX_ENTRIES: Final = 20_000
-MOVES_HIDDEN: Final = "moves hidden, f shows them"
 #: The rate shown is measured over so many frames.
 FPS_FRAMES: Final = 30
+
+MOVES_HIDDEN: Final = "moves hidden, f shows them"
 
 
 class TraceApp(App[int]):
@@ -33,7 +36,7 @@ class TraceApp(App[int]):
     CSS = """
     Screen { background: #0d1117; color: #e6edf3; }
     #status, #counts { height: 1; padding: 0 2; background: #161b22; }
-    #pointers { height: auto; min-height: 8; max-height: 16; border: round #30363d; border-title-color: #79c0ff; padding: 0 1; }
+    #pointers { height: auto; min-height: 6; max-height: 16; border: round #30363d; border-title-color: #79c0ff; padding: 0 1; }
     #events { height: 1fr; border: round #30363d; border-title-color: #79c0ff; border-subtitle-color: #7d8590; padding: 0 1; }
     #head { height: 1; color: #7d8590; }
     #log, #log:focus { background: #0d1117; background-tint: #0d1117 0%; scrollbar-size: 1 1; scrollbar-background: #0d1117;
@@ -78,7 +81,7 @@ class TraceApp(App[int]):
         yield Static(id="counts")
         yield Static(id="pointers")
         with Vertical(id="events"):
-            yield Static(LOG_HEADER, id="head", markup=False)
+            yield Static(id="head", markup=False)
             yield RichLog(id="log", max_lines=MAX_ENTRIES)
         yield Footer(show_command_palette=False)
 
@@ -92,7 +95,7 @@ class TraceApp(App[int]):
 
     def refresh_trace(self) -> None:
         """Show what has happened since the last time."""
-        if not self.query("#counts"):  # the screen is being taken down
+        if len(self.query("#status, #counts, #pointers, #log")) < 4:  # the screen is being taken down
             return
         ended = self._player.ended.is_set() or self._player.held.is_set()
         if not self.is_paused:
@@ -117,9 +120,7 @@ class TraceApp(App[int]):
         """Show or hide what comes with every frame."""
         self.shows_moves = not self.shows_moves
         self.query_one("#events").border_subtitle = "" if self.shows_moves else MOVES_HIDDEN
-        self.query_one("#log", RichLog).clear()
-        for entry in self.entries:
-            self._show(entry)
+        self._rewrite()
 
     def action_save(self) -> None:
         """Write every entry, moves too, as plain lines."""
@@ -130,6 +131,10 @@ class TraceApp(App[int]):
             self.notify(f"cannot write {self._log_file} ({error.strerror})", severity="error")
             return
         self.notify(f"{len(self.entries)} events saved to {self._log_file}")
+
+    def on_resize(self) -> None:
+        """Show what fits."""
+        self.call_after_refresh(self._rewrite)
 
     def action_quit_with(self, code: int) -> None:
         """Leave."""
@@ -150,20 +155,30 @@ class TraceApp(App[int]):
         self.entries.append(entry)
         self._show(entry)
 
+    def _rewrite(self) -> None:
+        self.query_one("#head", Static).update(log_header(self._is_wide))
+        self.query_one("#log", RichLog).clear()
+        for entry in self.entries:
+            self._show(entry)
+
+    @property
+    def _is_wide(self) -> bool:
+        return self.size.width >= WIDE_FROM
+
     def _show(self, entry: Entry) -> None:
         if self.shows_moves or entry.event.type.is_edge:
-            line = entry_text(entry)
+            line = entry_text(entry, self._is_wide)
             self.query_one("#log", RichLog).write(line, width=line.cell_len)
 
     def _draw(self) -> None:
         step = self._step
         has_ended = self._player.ended.is_set() and not self.is_paused
         playing = "⏸ paused " if self.is_paused else "■ ended  " if has_ended else "▶ playing"
-        status = status_text(step, playing, self._fps(), self._start_ns or 0, self._frame_count)
+        elapsed_s = (step.timestamp_ns - self._start_ns) / 1e9 if step and self._start_ns is not None else 0.0
         pointers = () if step is None or has_ended else step.pointers
-        self._update("#status", status)
+        self._update("#status", status_text(step, playing, self._fps(), elapsed_s, self._frame_count, self._is_wide))
         self._update("#counts", count_text(self._trace.counts))
-        self._update("#pointers", pointer_table(pointers, step.timestamp_ns if step else 0))
+        self._update("#pointers", pointer_table(pointers, step.timestamp_ns if step else 0, self._is_wide))
 
     def _update(self, selector: str, content: Any) -> None:
         self.query_one(selector, Static).update(content)

@@ -78,7 +78,7 @@ def _causes(thresholds: Thresholds, gestures: GestureConfig) -> dict[EventType, 
     return {
         EventType.DOWN: lambda event: f"p {event.touch_probability:.2f} >= {thresholds.down:.2f}",
         EventType.UP: lambda event: f"p {event.touch_probability:.2f} < {thresholds.up:.2f}",
-        EventType.CLICK: lambda event: f"held {event.duration_ms:.0f} ms, click {event.click_count}",
+        EventType.CLICK: lambda event: f"held {event.duration_ms:.0f} ms",
         EventType.DOUBLE_CLICK: lambda event: f"click {event.click_count}",
         EventType.LONG_CLICK: lambda event: f"held {event.duration_ms:.0f} ms, {event.force_n:.1f} N",
         EventType.DRAG_START: lambda event: f"{hypot(event.dx_mm, event.dy_mm):.1f} mm > {gestures.touch_slop_mm:.1f} mm",

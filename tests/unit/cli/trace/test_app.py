@@ -34,11 +34,11 @@ def app_of(source: HandFedSource, log_file: Path = Path("unused.txt")) -> TraceA
     return TraceApp("fed", player, Trace(engine.thresholds, engine.config.gestures), log_file=log_file)
 
 
-def drive(app: TraceApp, steps: Callable[[Pilot[int]], Awaitable[None]]) -> int | None:
-    """Run the app on a screen of 140x40 characters and let `steps` press its keys; gives what it returned."""
+def drive(app: TraceApp, steps: Callable[[Pilot[int]], Awaitable[None]], columns: int = 140) -> int | None:
+    """Run the app on a screen of 40 lines and let `steps` press its keys; gives what it returned."""
 
     async def run() -> None:
-        async with app.run_test(size=(140, 40)) as pilot:
+        async with app.run_test(size=(columns, 40)) as pilot:
             await steps(pilot)
 
     asyncio.run(run())
@@ -76,12 +76,12 @@ def test_pointers_events_and_counts_are_shown(source: HandFedSource) -> None:
         await until(pilot, lambda: DOWN in edges(app) and len(app.entries) >= 9)
         await until(pilot, lambda: "2.00 N" in shown(app, "#pointers"))
         row = shown(app, "#pointers")
-        assert all(words in row for words in ("● touch", "held, hard", "right", "index", "palm", "40.0", "45°"))
+        assert all(words in row for words in ("● touch", "held, hard", "right index", "palm", "40.0", "45°"))
         assert "gate open" in shown(app, "#status")
         assert "right touching, left host" in shown(app, "#status")
         source.hover()
         await until(pilot, lambda: UP in edges(app))
-        await until(pilot, lambda: "down 1   up 1   cancel 0   click 1" in shown(app, "#counts"))
+        await until(pilot, lambda: "down 1  up 1  cancel 0  click 1" in shown(app, "#counts"))
         source.end()
         await until(pilot, lambda: "■ ended" in shown(app, "#status"))
         assert "no pointer" in shown(app, "#pointers")
@@ -209,3 +209,35 @@ def test_leaving_a_live_source_does_not_wait_for_its_next_picture(live_source: H
 
     assert drive(app, steps) == 0
     assert not app._player.is_running
+
+
+def test_on_80_columns_nothing_is_cut_off(source: HandFedSource) -> None:
+    app = app_of(source)
+
+    async def steps(pilot: Pilot[int]) -> None:
+        source.hover()
+        source.touch()
+        await until(pilot, lambda: "2.00 N" in shown(app, "#pointers"))
+        assert all(words in shown(app, "#pointers") for words in ("● touch", "R index", "palm", "40.0", "0.98", "45°"))
+        for part in ("#status", "#counts", "#pointers"):
+            assert "…" not in shown(app, part)
+        source.end()
+        await until(pilot, lambda: HOVER_EXIT in edges(app))
+        await until(pilot, lambda: any("source_ended" in line for line in log_lines(app)))
+        assert max(len(line) for line in log_lines(app)) <= 75
+
+    drive(app, steps, columns=80)
+
+
+def test_a_wider_screen_shows_more(source: HandFedSource) -> None:
+    app = app_of(source)
+
+    async def steps(pilot: Pilot[int]) -> None:
+        source.hover()
+        source.end()
+        await until(pilot, lambda: HOVER_EXIT in edges(app))
+        assert not any("absent" in line for line in log_lines(app))
+        await pilot.resize_terminal(140, 40)
+        await until(pilot, lambda: any("absent → hover" in line for line in log_lines(app)))
+
+    drive(app, steps, columns=80)
