@@ -2,7 +2,7 @@
 
 const BONES = [[0, 1, 2, 3, 4], [0, 5, 6, 7, 8], [5, 9, 10, 11, 12], [9, 13, 14, 15, 16], [13, 17, 18, 19, 20], [0, 17]];
 const COLOURS = { LEFT: "#f0b429", RIGHT: "#5ac8fa", UNSPECIFIED: "#93a4b8" };
-const DEBUG_VIEW = "debug_view";
+const DEBUG_VIDEO = "debug_video";
 const VIDEO_PATH = "debug.jpg";
 const VIDEO_EVERY_MS = 100;
 
@@ -17,7 +17,7 @@ export function showHands(connection, root = document) {
     requestAnimationFrame(() => paint(canvas, last));
   });
   connection.addEventListener("welcome", ({ detail }) => {
-    const shown = detail.features.includes(DEBUG_VIEW);
+    const shown = detail.features.includes(DEBUG_VIDEO);
     video.hidden = mark.hidden = !shown;
     if (!shown) return;
     panel.hidden = false;
