@@ -29,7 +29,8 @@ def test_every_setting_is_printed_with_unit_range_default_and_source(egotouch: C
         for name in names:
             assert any(line.removeprefix("# ").startswith(f"{name} =") for line in lines), name
     place = lines.index("touch_slop_mm = 1.27")
-    assert lines[place - 2 : place] == [f"# mm, > 0, default {TouchConfig().gestures.touch_slop_mm}", "# Preset: ViewConfiguration.TOUCH_SLOP: 8 dp"]
+    default = TouchConfig().gestures.touch_slop_mm
+    assert lines[place - 2 : place] == [f"# mm, > 0, default {default}", "# Preset: ViewConfiguration.TOUCH_SLOP: 8 dp"]
 
 
 def test_a_file_shows_its_effect(egotouch: Command, tmp_path: Path) -> None:
