@@ -9,7 +9,7 @@ from typing import Self
 
 from egotouch_sdk.clock import Pacer
 from egotouch_sdk.config import TouchConfig
-from egotouch_sdk.errors import SourceError
+from egotouch_sdk.errors import ConfigError, SourceError
 from egotouch_sdk.frame_observation import FrameObservation
 from egotouch_sdk.simulator.observe import observe
 from egotouch_sdk.simulator.scene import SimulatedView
@@ -37,14 +37,17 @@ class ScriptSource:
     """Plays the script in a YAML file; every iteration starts at its beginning and gives the same observations.
 
     `realtime` holds each observation back until its time, as a camera would; otherwise they come as fast as they are taken.
-    `fps` replaces the script's own. Raises `SourceError` when the file cannot be read, `ConfigError` when the script is wrong and
-    `MissingExtraError` without the extra `simulate`.
+    `fps` (1 to 240) replaces the script's own.
+    Raises `SourceError` when the file cannot be read, `ConfigError` when the script is wrong, and `MissingExtraError` without the
+    extra `simulate`.
     """
 
     config: TouchConfig | None = None
     thresholds: Thresholds | None = None
 
     def __init__(self, path: str | Path, realtime: bool = False, *, fps: float | None = None) -> None:
+        if fps is not None and not 1.0 <= fps <= 240.0:
+            raise ConfigError(f"a script cannot be played at {fps:g} pictures per second", hint="Choose 1 to 240")
         self.script: Script = read_script(Path(path))
         self._fps = fps or self.script.fps
         self._timeline = Timeline(self.script, str(path))

@@ -12,6 +12,7 @@ import pytest
 
 from egotouch_sdk.config import TouchConfig
 from egotouch_sdk.engine import EventEngine
+from egotouch_sdk.errors import ConfigError
 from egotouch_sdk.simulator import ScriptSource, shipped_script, shipped_scripts
 from egotouch_sdk.sources import ObservationSource, open_source
 from egotouch_sdk.touch_event import EventType, TouchEvent
@@ -152,3 +153,9 @@ def test_a_yaml_file_opens_as_a_source_of_observations(write: Callable[..., Path
         assert isinstance(source, ScriptSource)
         assert isinstance(source, ObservationSource)
         assert (source.fps, source.width_px, source.height_px, source.config, source.thresholds) == (24, 1280, 720, None, None)
+
+
+@pytest.mark.parametrize("fps", [0.0, 0.5, 1000.0, float("nan")])
+def test_a_rate_that_no_camera_has_is_refused(fps: float) -> None:
+    with pytest.raises(ConfigError, match="Choose 1 to 240"):
+        ScriptSource(shipped_script("taps"), fps=fps)
