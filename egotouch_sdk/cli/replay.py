@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Iterable
+from dataclasses import dataclass, field
 from difflib import unified_diff
-from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -42,20 +41,42 @@ def replay(options: argparse.Namespace) -> int:
 
     recording = RecordingSource(options.file)
     config = _changed(recording.config, options.config) if options.config else None
-    frames = list(replayed_frames(recording, config))
-    recorded, replayed = _events(frame.recorded for frame in frames), _events(frame.replayed for frame in frames)
-    if options.json:
-        for event in replayed:
-            print_json(event.to_dict())
-    elif config:
-        for line in unified_diff(_lines(recorded), _lines(replayed), "recorded", "replayed", n=0, lineterm=""):
+    tally = _Tally()
+    for frame in replayed_frames(recording, config):
+        tally.add(frame, with_lines=config is not None)
+        if options.json:
+            for event in frame.replayed:
+                print_json(event.to_dict())
+    if not options.json:
+        for line in unified_diff(tally.recorded_lines, tally.replayed_lines, "recorded", "replayed", n=0, lineterm=""):
             print(line)
-    different = next((frame for frame in frames if not frame.is_identical), None)
-    sys.stderr.write(f"{len(replayed)} events, {_verdict(recorded, different)}\n")
+    different = tally.first_difference
+    verdict = "identical" if different is None else f"different from the {tally.recorded} recorded"
+    sys.stderr.write(f"{tally.replayed} events, {verdict}\n")
     if different is None or config:
         return 0
     sys.stderr.write("".join(f"  {line}\n" for line in [*_difference(different), *_circumstances(recording.header)]))
     return 1
+
+
+@dataclass
+class _Tally:
+    """Counts of events then and now, the first frame in which they differ and, where asked for, a line for each edge."""
+
+    recorded: int = 0
+    replayed: int = 0
+    first_difference: ReplayedFrame | None = None
+    recorded_lines: list[str] = field(default_factory=list)
+    replayed_lines: list[str] = field(default_factory=list)
+
+    def add(self, frame: ReplayedFrame, *, with_lines: bool) -> None:
+        self.recorded += len(frame.recorded)
+        self.replayed += len(frame.replayed)
+        if self.first_difference is None and not frame.is_identical:
+            self.first_difference = frame
+        if with_lines:
+            self.recorded_lines += _lines(frame.recorded)
+            self.replayed_lines += _lines(frame.replayed)
 
 
 def _changed(config: TouchConfig, path: Path) -> TouchConfig:
@@ -64,16 +85,8 @@ def _changed(config: TouchConfig, path: Path) -> TouchConfig:
     return type(config)(**merged([config.model_dump(), read_file(path).settings]))
 
 
-def _events(parts: Iterable[tuple[TouchEvent, ...]]) -> list[TouchEvent]:
-    return list(chain.from_iterable(parts))
-
-
-def _lines(events: list[TouchEvent]) -> list[str]:
+def _lines(events: tuple[TouchEvent, ...]) -> list[str]:
     return [event_line(event) for event in events if event.type.is_edge]
-
-
-def _verdict(recorded: list[TouchEvent], different: ReplayedFrame | None) -> str:
-    return "identical" if different is None else f"different from the {len(recorded)} recorded"
 
 
 def _difference(frame: ReplayedFrame) -> list[str]:

@@ -12,7 +12,7 @@ from typing import NamedTuple
 from egotouch_sdk.errors import MissingExtraError, RecordingError
 
 try:
-    from mcap.exceptions import McapError
+    from mcap.exceptions import EndOfFile, InvalidMagic, McapError
     from mcap.reader import make_reader
     from mcap.records import Channel, Chunk, Footer, Message, Schema
     from mcap.stream_reader import StreamReader, breakup_chunk
@@ -174,8 +174,10 @@ def message_count(path: Path, topic: str) -> int | None:
 def _next_whole(records: Iterator[object]) -> object:
     try:
         return next(records)
-    except StopIteration:
-        raise DamagedError("no footer") from None
+    except (StopIteration, EndOfFile):
+        raise DamagedError("the file ends too early") from None
+    except InvalidMagic:
+        raise DamagedError("it does not begin like an MCAP file") from None
     except _DAMAGE as error:
         raise DamagedError(str(error)) from error
 
