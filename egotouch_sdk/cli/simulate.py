@@ -15,6 +15,14 @@ EXAMPLES = """\
   egotouch simulate mine.yaml --fast     a script of your own, as fast as it goes
   egotouch simulate faults --json        one JSON object per event
   egotouch debug-events mine.yaml        the same events, as a live trace
+
+a script (all keys: python -m pydoc egotouch_sdk.simulator.script):
+  surface: palm
+  acts:
+    - tap: {at: [0, 50]}
+    - press: {at: [20, 40], duration_ms: 800, force_n: 2.5, finger: thumb}
+    - drag: {at: [0, 20], to: [0, 70], pitch_deg: 60, yaw_deg: -20}
+    - vanish: {with_ms: 200}
 """
 
 
