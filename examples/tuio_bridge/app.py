@@ -8,6 +8,7 @@ SOURCE: camera index (default 0), video, recording or simulator script. Needs: p
 import argparse
 import socket
 import sys
+from contextlib import suppress
 from threading import Event, Lock, Thread
 
 from tuio import ADDRESS, SCREENS, Message, TuioCursors
@@ -67,13 +68,20 @@ class TuioSender(TouchListener):
 
     def _send(self, messages: list[Message]) -> None:
         if messages:
-            self._socket.sendto(encode(messages), self._receiver)
+            with suppress(OSError):  # UDP promises nothing; once the network is back, the next bundle says all that counts
+                self._socket.sendto(encode(messages), self._receiver)
 
 
 def receiver(text: str) -> tuple[str, int]:
     """`host:port`, where the port may be left out."""
     host, _, port = text.partition(":")
-    return socket.gethostbyname(host or "127.0.0.1"), int(port or 3333)
+    try:
+        address, number = socket.gethostbyname(host), int(port or 3333)
+    except (OSError, ValueError):
+        number = 0
+    if not 0 < number < 65536:
+        raise argparse.ArgumentTypeError(f"{text} is no receiver; give host:port such as 127.0.0.1:3333")
+    return address, number
 
 
 def main() -> None:

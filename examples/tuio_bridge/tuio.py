@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from math import hypot
 
 from egotouch_sdk import EventType, Handedness, Surface, TouchEvent
-from egotouch_sdk.skin import Region, reading_axes
+from egotouch_sdk.skin import ReadingAxes, Region, reading_axes
 from egotouch_sdk.skin.reading import USUAL_READING
 
 #: One OSC message: its arguments after the address, which is always this one.
@@ -30,21 +30,22 @@ class SkinScreen:
 
     def place(self, event: TouchEvent) -> tuple[float, float]:
         """Where a touch is: (x, y), 0..1 from the top left; a touch beside the screen is at its edge."""
-        right_mm, up_mm = self._axes(event.host_hand).to_view(event.x_mm - self.x_mm, event.y_mm - self.y_mm)
+        right_mm, up_mm = self.axes(event.host_hand).to_view(event.x_mm - self.x_mm, event.y_mm - self.y_mm)
         return _clip(0.5 + right_mm / self.width_mm), _clip(0.5 - up_mm / self.height_mm)
 
     def velocity(self, event: TouchEvent) -> tuple[float, float]:
         """How fast it is, in screens per second to the right and down."""
-        right_mm_s, up_mm_s = self._axes(event.host_hand).to_view(event.velocity_x_mm_s, event.velocity_y_mm_s)
+        right_mm_s, up_mm_s = self.axes(event.host_hand).to_view(event.velocity_x_mm_s, event.velocity_y_mm_s)
         return right_mm_s / self.width_mm, -up_mm_s / self.height_mm
 
     def region(self, host: Handedness) -> Region:
         """The skin that it covers on one hand."""
         corners = ((-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5))
-        ways = (self._axes(host).to_host(right * self.width_mm, up * self.height_mm) for right, up in corners)
+        ways = (self.axes(host).to_host(right * self.width_mm, up * self.height_mm) for right, up in corners)
         return Region(self.surface, tuple((self.x_mm + dx, self.y_mm + dy) for dx, dy in ways), host)
 
-    def _axes(self, host: Handedness):
+    def axes(self, host: Handedness) -> ReadingAxes:
+        """The wearer's right and up."""
         return reading_axes(self.surface, host, USUAL_READING[self.surface])
 
 

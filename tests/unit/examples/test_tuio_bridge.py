@@ -173,12 +173,20 @@ def test_what_is_held_is_sent_again(bridge: Bridge, receiver: Receiver) -> None:
 def test_the_screen_is_upright_for_the_wearer_on_every_limb(tuio: ModuleType, surface: Surface, host: Handedness) -> None:
     screen = tuio.SCREENS[surface]
     right_mm, up_mm = screen.width_mm / 2, screen.height_mm / 2
-    axes = screen._axes(host)
+    axes = screen.axes(host)
     for right, up, place in ((-1, 1, (0, 0)), (1, 1, (1, 0)), (1, -1, (1, 1)), (-1, -1, (0, 1))):
         dx, dy = axes.to_host(right * right_mm, up * up_mm)
         event = make_event(EventType.DOWN, hand=host.other, surface=surface, x_mm=screen.x_mm + dx, y_mm=screen.y_mm + dy)
         assert screen.place(event) == pytest.approx(place)
         assert screen.region(host).contains(event.x_mm, event.y_mm, slop_mm=1e-9)
+
+
+@pytest.mark.parametrize("receiver", ["127.0.0.1:x", "127.0.0.1:99999", "no such host:3333"])
+def test_a_wrong_receiver_is_named(receiver: str) -> None:
+    command = [sys.executable, str(EXAMPLE / "app.py"), str(EXAMPLE / "touches.yaml"), "--to", receiver]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False, env={**os.environ, "PYTHONPATH": str(ROOT)})
+    assert done.returncode == 2
+    assert f"{receiver} is no receiver" in done.stderr and "Traceback" not in done.stderr
 
 
 def test_the_app_sends_what_simulated_fingers_do(receiver: Receiver) -> None:
