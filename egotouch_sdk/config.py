@@ -287,7 +287,7 @@ class TouchConfig(_Section):
 
     @classmethod
     def precise(cls) -> Self:
-        """Double clicks on small targets and fine steps of force, for a steady camera in good light."""
+        """Fine steps of force, and nothing guessed for long, for a steady camera in good light."""
         return cls.load(preset="precise")
 
     @classmethod

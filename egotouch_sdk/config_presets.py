@@ -29,7 +29,6 @@ PRESETS: dict[PresetName, dict[str, dict[str, tuple[float, str]]]] = {
             "jump_slack_mm": (10.0, "our choice: half the default, for a steady camera"),
         },
         "gestures": {
-            "double_click_slop_mm": (8.0, "our choice: half of Android's, for small keys side by side"),
             "force_step_n": (0.05, "our choice: half the default"),
         },
     },
