@@ -1,4 +1,15 @@
-"""Recordings: what perception found in each frame, with the events of it, in an MCAP file that can be replayed."""
+"""Recordings: what perception found in each frame, with the events of it, in an MCAP file that can be replayed.
+
+pipeline = TouchPipeline()
+header = Header(pipeline.config, pipeline.engine.thresholds, model_sha256(pipeline.config))
+with Recorder("session.mcap", header) as recorder, open_source(0) as camera:
+    for frame in camera:
+        recorder.write(pipeline.process(frame))
+    recorder.end(frame.timestamp_ns, pipeline.finish(frame.timestamp_ns))
+
+for observation in RecordingSource("session.mcap"):
+    ...
+"""
 
 from __future__ import annotations
 

@@ -17,7 +17,7 @@ try:
     from mcap.records import Channel, Chunk, Footer, Message, Schema
     from mcap.stream_reader import StreamReader, breakup_chunk
     from mcap.writer import Writer
-    from zstandard import ZstdError
+    from zstandard import ZstdError, frame_content_size
 except ModuleNotFoundError as error:
     raise MissingExtraError("recording", "recording") from error
 
@@ -25,6 +25,8 @@ except ModuleNotFoundError as error:
 _DAMAGE = (McapError, ZstdError, struct.error, ValueError, KeyError, EOFError, MemoryError, OverflowError)
 #: Chunks end where we say so, never in the middle of a frame.
 _CHUNK_BYTES = 1 << 30
+#: Nobody records more in half a second; a chunk that claims to be larger is not unpacked (our choice).
+_MAX_UNPACKED_BYTES = 1 << 28
 
 
 class Record(NamedTuple):
@@ -186,6 +188,9 @@ def _parts(record: object) -> list[Channel | Message | Schema]:
     if not isinstance(record, Chunk):
         return [record] if isinstance(record, Channel | Message) else []
     try:
+        packed_n = frame_content_size(record.data) if record.compression == "zstd" else 0
+        if max(record.uncompressed_size, packed_n) > _MAX_UNPACKED_BYTES:
+            raise DamagedError(f"a chunk claims to hold {max(record.uncompressed_size, packed_n)} bytes")
         return list(breakup_chunk(record, validate_crc=True))
     except _DAMAGE as error:
         raise DamagedError(str(error)) from error

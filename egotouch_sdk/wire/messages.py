@@ -41,7 +41,7 @@ def from_json(kind: type[M], text: str | bytes) -> M:
     """The message of type `kind` in `text`, in canonical JSON with either spelling of field names; unknown fields and enum names are
     ignored, as in the binary form. Raises `ProtocolError` for anything else.
     """
-    if not text.lstrip().startswith("{" if isinstance(text, str) else b"{"):
+    if text.lstrip()[:1] not in ("{", b"{"):
         raise ProtocolError(f"the text is no {kind.__name__} in JSON", hint=_HINT)
     try:
         message: M = json_format.Parse(text, kind(), ignore_unknown_fields=True)

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import random
+import subprocess
+import sys
 import warnings
 from pathlib import Path
 
@@ -113,3 +115,23 @@ def test_settings_of_a_later_version_are_refused(tmp_path: Path) -> None:
 def test_a_header_without_thresholds_is_refused(tmp_path: Path) -> None:
     with pytest.raises(RecordingError, match="thresholds"):
         RecordingSource(file_with(tmp_path / "empty.mcap", topics.HEADER, pb.RecordingHeader(format=1, config_json="{}")))
+
+
+def test_a_chunk_that_would_fill_the_memory_is_not_unpacked(whole: bytes, tmp_path: Path) -> None:
+    """The claimed size of the first chunk, 8 + 8 bytes after its opcode and length, is made a million times larger."""
+    path, data = tmp_path / "bomb.mcap", bytearray(whole)
+    header_bytes = 8 + 9 + int.from_bytes(data[9:17], "little")
+    assert data[header_bytes] == 0x06, "the first record after the file's header is a chunk"
+    data[header_bytes + 9 + 16 + 5] = 0xFF
+    path.write_bytes(data)
+    with pytest.raises(RecordingError, match="claims to hold"):
+        RecordingSource(path)
+
+
+def test_without_its_extra_a_recording_names_the_way_to_install_it(whole: bytes, tmp_path: Path) -> None:
+    path = tmp_path / "taps.mcap"
+    path.write_bytes(whole)
+    script = "import sys; sys.modules['mcap'] = None\nfrom egotouch_sdk.cli.main import main; sys.exit(main(['run', sys.argv[1]]))"
+    run = subprocess.run([sys.executable, "-c", script, str(path)], capture_output=True, text=True, check=False)
+    assert run.returncode == 1
+    assert run.stderr == "egotouch: error: recording needs an optional package. Install it with: pip install 'egotouch-sdk[recording]'\n"
