@@ -12,7 +12,7 @@ from egotouch_sdk.sources import VideoFileSource
 from egotouch_sdk.view.annotate import HEIGHT_PX, WIDTH_PX
 
 Command = Callable[..., tuple[int, str, str]]
-COMMANDS = ("demo", "run", "hands", "estimate", "bench", "doctor")
+COMMANDS = ("demo", "run", "record", "replay", "hands", "estimate", "bench", "doctor")
 
 
 @pytest.fixture
