@@ -15,7 +15,8 @@ from egotouch_sdk.engine import EventEngine
 from egotouch_sdk.errors import ConfigError
 from egotouch_sdk.joints import FINGERS, Handedness
 from egotouch_sdk.simulator import observe
-from egotouch_sdk.simulator.script import ACTS, parse_script
+from egotouch_sdk.simulator.acts import ACTS
+from egotouch_sdk.simulator.script import parse_script
 from egotouch_sdk.simulator.timeline import Timeline
 from egotouch_sdk.surface import Surface
 from egotouch_sdk.touch_event import EventType, TouchEvent

@@ -9,7 +9,8 @@ import pytest
 from egotouch_sdk.errors import ConfigError, SourceError
 from egotouch_sdk.joints import Finger, Handedness
 from egotouch_sdk.simulator import ScriptSource, shipped_script, shipped_scripts
-from egotouch_sdk.simulator.script import ACTS, Drag, Tap, parse_script, read_script
+from egotouch_sdk.simulator.acts import ACTS, Drag, Tap
+from egotouch_sdk.simulator.script import parse_script, read_script
 from egotouch_sdk.simulator.timeline import Timeline
 
 
