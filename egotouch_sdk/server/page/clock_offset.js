@@ -4,6 +4,7 @@ const KEPT = 16;
 
 export class ClockOffset {
   #probes = [];
+  #best = null;
 
   /** Half the round trip of the best probe in milliseconds, the bound of the error; null before the first reply. */
   get uncertaintyMs() {
@@ -16,6 +17,7 @@ export class ClockOffset {
     if (!(roundTripMs >= 0)) return;
     this.#probes.push({ roundTripMs, offsetMs: (server_receive_ms - client_send_ms + server_send_ms - nowMs) / 2 });
     if (this.#probes.length > KEPT) this.#probes.shift();
+    this.#best = this.#probes.reduce((best, probe) => (probe.roundTripMs < best.roundTripMs ? probe : best));
   }
 
   /** This page's time on the server's clock; null before the first reply. */
@@ -26,9 +28,6 @@ export class ClockOffset {
   /** Forget everything: another run of the server has another clock. */
   reset() {
     this.#probes = [];
-  }
-
-  get #best() {
-    return this.#probes.reduce((best, probe) => (!best || probe.roundTripMs < best.roundTripMs ? probe : best), null);
+    this.#best = null;
   }
 }

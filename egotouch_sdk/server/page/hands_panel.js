@@ -1,20 +1,27 @@
 // The landmarks of the hands in view, in the camera's own picture; the picture itself only where the server runs a debug view.
 
+import { atMostEvery } from "./frames.js";
+
 const BONES = [[0, 1, 2, 3, 4], [0, 5, 6, 7, 8], [5, 9, 10, 11, 12], [9, 13, 14, 15, 16], [13, 17, 18, 19, 20], [0, 17]];
 const COLOURS = { LEFT: "#f0b429", RIGHT: "#5ac8fa", UNSPECIFIED: "#93a4b8" };
 const DEBUG_VIDEO = "debug_video";
 const VIDEO_PATH = "debug.jpg";
 const VIDEO_EVERY_MS = 100;
+const PAINT_EVERY_MS = 40;
 
 /** Show hands (and debug video, when the server announces that feature) as they come in. */
 export function showHands(connection, root = document) {
   const [panel, canvas, note, video, mark] = ["camera", "hands", "camera-note", "video", "video-mark"].map((id) => root.getElementById(id));
   let last = null;
+  const draw = atMostEvery(PAINT_EVERY_MS, () => {
+    const { hands, width_px, height_px } = last;
+    note.textContent = `${hands.length === 1 ? "1 hand" : `${hands.length} hands`}, ${width_px} × ${height_px} px`;
+    paint(canvas, last);
+  });
   connection.addEventListener("hands", ({ detail }) => {
     last = detail;
     panel.hidden = false;
-    note.textContent = `${detail.hands.length === 1 ? "1 hand" : `${detail.hands.length} hands`}, ${detail.width_px} × ${detail.height_px} px`;
-    requestAnimationFrame(() => paint(canvas, last));
+    requestAnimationFrame(draw);
   });
   connection.addEventListener("welcome", ({ detail }) => {
     const shown = detail.features.includes(DEBUG_VIDEO);

@@ -11,6 +11,8 @@ export class LimbView {
   #outline = new Path2D();
   #scale = 1; // CSS pixels per millimetre
   #ratio = 1;
+  #width = 0; // of the canvas, in CSS pixels
+  #height = 0;
   #host = "LEFT";
 
   /** `side` is "palm" or "back"; `paint(view, context)` draws the marks above the skin, in CSS pixels. */
@@ -50,14 +52,13 @@ export class LimbView {
   /** Host-frame millimetres to CSS pixels of the canvas. */
   toScreen(x_mm, y_mm) {
     const { left, right, top } = BOUNDS_MM;
-    const middle = this.#canvas.clientWidth / 2;
-    return [middle + this.thumbwards * (x_mm - (left + right) / 2) * this.#scale, (top - y_mm) * this.#scale + this.#marginTop];
+    return [this.#width / 2 + this.thumbwards * (x_mm - (left + right) / 2) * this.#scale, (top - y_mm) * this.#scale + this.#marginTop];
   }
 
   /** CSS pixels of the canvas to host-frame millimetres. */
   toMm(x, y) {
     const { left, right, top } = BOUNDS_MM;
-    const x_mm = (x - this.#canvas.clientWidth / 2) / (this.thumbwards * this.#scale) + (left + right) / 2;
+    const x_mm = (x - this.#width / 2) / (this.thumbwards * this.#scale) + (left + right) / 2;
     return [x_mm, top - (y - this.#marginTop) / this.#scale];
   }
 
@@ -93,16 +94,17 @@ export class LimbView {
   }
 
   get #marginTop() {
-    return (this.#canvas.clientHeight - (BOUNDS_MM.top - BOUNDS_MM.bottom) * this.#scale) / 2;
+    return (this.#height - (BOUNDS_MM.top - BOUNDS_MM.bottom) * this.#scale) / 2;
   }
 
   #resize() {
-    const { clientWidth, clientHeight } = this.#canvas;
+    this.#width = this.#canvas.clientWidth;
+    this.#height = this.#canvas.clientHeight;
     this.#ratio = Math.min(devicePixelRatio || 1, 2);
-    this.#canvas.width = Math.round(clientWidth * this.#ratio);
-    this.#canvas.height = Math.round(clientHeight * this.#ratio);
+    this.#canvas.width = Math.round(this.#width * this.#ratio);
+    this.#canvas.height = Math.round(this.#height * this.#ratio);
     const { left, right, top, bottom } = BOUNDS_MM;
-    this.#scale = Math.min(clientWidth / (right - left), clientHeight / (top - bottom));
+    this.#scale = Math.min(this.#width / (right - left), this.#height / (top - bottom));
     this.refresh();
   }
 
@@ -159,7 +161,7 @@ export class LimbView {
     fade.addColorStop(1, "rgb(0 0 0 / 1)");
     context.globalCompositeOperation = "destination-out";
     context.fillStyle = fade;
-    context.fillRect(0, from, this.#canvas.clientWidth, this.#canvas.clientHeight);
+    context.fillRect(0, from, this.#width, this.#height);
     context.globalCompositeOperation = "source-over";
   }
 
@@ -181,7 +183,7 @@ export class LimbView {
     context.fillText("x", xEnd + 5 * this.thumbwards * this.#scale, y);
     context.fillText("y", x, yEnd - 5 * this.#scale);
     const bar = SCALE_BAR_MM * this.#scale;
-    const [edge, low] = [this.#canvas.clientWidth - 10, this.#canvas.clientHeight - 10];
+    const [edge, low] = [this.#width - 10, this.#height - 10];
     context.fillRect(edge - bar, low, bar, 2);
     context.textAlign = "right";
     context.textBaseline = "bottom";

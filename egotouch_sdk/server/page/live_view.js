@@ -4,6 +4,7 @@ import { access, askWhenWanted, keepToken } from "./access.js";
 import { Connection, sameOrigin } from "./connection.js";
 import { showCounters } from "./counters.js";
 import { EventLog } from "./event_log.js";
+import { atMostEvery, everyFrame } from "./frames.js";
 import { showHands } from "./hands_panel.js";
 import { LimbView } from "./limb_view.js";
 import { Plot } from "./plot.js";
@@ -29,6 +30,7 @@ const log = new EventLog(byId("log"), byId("filters"));
 const force = new Plot(byId("force"), { top: 2, unit: "N" });
 const latency = new Plot(byId("latency"), { top: 20, unit: "ms", dots: true });
 let follow = true;
+let forceNow = "";
 
 connection.addEventListener("events", ({ detail: { events, local } }) => {
   const now = performance.now();
@@ -39,8 +41,8 @@ connection.addEventListener("events", ({ detail: { events, local } }) => {
     if (event.type === "DOWN" || event.type === "HOVER_ENTER") showHost(hostOf(event), true);
     if (event.type === "DOWN" || event.type === "MOVE") force.add(event.pointer_id, FINGER_COLOURS[event.finger], now, event.force_n);
     if (event.type === "UP" || event.type === "CANCEL") force.add(event.pointer_id, FINGER_COLOURS[event.finger], now, null);
-    if (event.type === "DOWN" || event.type === "MOVE") byId("force-now").textContent = `${event.force_n.toFixed(2)} N`;
-    if (event.type === "UP" || event.type === "CANCEL") byId("force-now").textContent = "";
+    if (event.type === "DOWN" || event.type === "MOVE") forceNow = `${event.force_n.toFixed(2)} N`;
+    if (event.type === "UP" || event.type === "CANCEL") forceNow = "";
   }
 });
 connection.addEventListener("timing", ({ detail }) => {
@@ -84,16 +86,15 @@ function percentiles() {
 }
 
 let wasBusy = true;
-let plotted = 0;
-function frame(now) {
+const drawPlots = atMostEvery(PLOT_EVERY_MS, (now) => {
+  force.draw(now);
+  latency.draw(now);
+  byId("force-now").textContent = forceNow;
+});
+function draw(now) {
   if (marks.busy || wasBusy) for (const view of views) view.draw();
   wasBusy = marks.busy;
-  if (now - plotted >= PLOT_EVERY_MS) {
-    plotted = now;
-    force.draw(now);
-    latency.draw(now);
-  }
-  requestAnimationFrame(frame);
+  drawPlots(now);
 }
 
 setInterval(() => (byId("latency-now").textContent = percentiles()), 500);
@@ -102,7 +103,7 @@ showCounters(connection, byId("counters"));
 showHands(connection);
 askWhenWanted(connection, byId("access"));
 connection.start();
-requestAnimationFrame(frame);
+everyFrame(connection, draw);
 
 /** For the browser's console and for tests. */
 globalThis.egotouch = { connection, views, marks };

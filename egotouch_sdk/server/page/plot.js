@@ -5,6 +5,8 @@ export class Plot {
   #options;
   #series = new Map(); // key -> {colour, points: [{at, value}]}
   #level = null;
+  #width = 0; // of the canvas, in CSS pixels
+  #height = 0;
 
   /** `windowMs` is the span shown, `top` the least upper end of the axis, `unit` its unit; `dots` draws points instead of lines. */
   constructor(canvas, options) {
@@ -44,7 +46,7 @@ export class Plot {
       if (!series.points.length) this.#series.delete(key);
     }
     const context = this.#canvas.getContext("2d");
-    const [width, height, left, bottom] = [this.#canvas.clientWidth, this.#canvas.clientHeight, 38, 18];
+    const [width, height, left, bottom] = [this.#width, this.#height, 38, 18];
     const highest = [...this.#series.values()].flatMap(({ points }) => points).reduce((most, { value }) => Math.max(most, value ?? 0), top);
     const x = (at) => width - ((now - at) / windowMs) * (width - left);
     const y = (value) => 6 + (1 - value / highest) * (height - bottom - 6);
@@ -110,8 +112,10 @@ export class Plot {
 
   #resize() {
     const ratio = Math.min(devicePixelRatio || 1, 2);
-    this.#canvas.width = Math.round(this.#canvas.clientWidth * ratio);
-    this.#canvas.height = Math.round(this.#canvas.clientHeight * ratio);
+    this.#width = this.#canvas.clientWidth;
+    this.#height = this.#canvas.clientHeight;
+    this.#canvas.width = Math.round(this.#width * ratio);
+    this.#canvas.height = Math.round(this.#height * ratio);
     this.#canvas.getContext("2d").setTransform(ratio, 0, 0, ratio, 0, 0);
   }
 }

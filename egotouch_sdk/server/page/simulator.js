@@ -5,6 +5,7 @@ import { Connection, sameOrigin } from "./connection.js";
 import { Controls } from "./controls.js";
 import { EventLog } from "./event_log.js";
 import { playWith } from "./limb_input.js";
+import { atMostEvery, everyFrame } from "./frames.js";
 import { LimbView } from "./limb_view.js";
 import { PlayedFingers } from "./played_fingers.js";
 import { Plot } from "./plot.js";
@@ -15,11 +16,14 @@ import { FINGER_COLOURS, words } from "./vocabulary.js";
 
 const SIMULATOR = "simulator";
 const PLOT_EVERY_MS = 40;
+/** Shorter than the sender's least pause, so that what is played goes out at its full rate. */
+const PLAY_EVERY_MS = 7;
 const byId = (id) => document.getElementById(id);
 
 const connection = new Connection({ url: sameOrigin(), client: "simulator", subscribe: { status: true }, access, keepToken });
 const marks = new TouchMarks();
 let played = [];
+let forceNow = "";
 const view = new LimbView(byId("limb"), "palm", (limb, context) => {
   marks.paint(limb, context, performance.now());
   for (const pointer of played) paintFinger(limb, context, pointer, 0.18);
@@ -44,7 +48,7 @@ connection.addEventListener("events", ({ detail: { events, local } }) => {
     const ended = event.type === "UP" || event.type === "CANCEL";
     if (!ended && event.type !== "DOWN" && event.type !== "MOVE") continue;
     force.add(event.pointer_id, FINGER_COLOURS[event.finger], now, ended ? null : event.force_n);
-    byId("force-now").textContent = ended ? "" : `${event.force_n.toFixed(2)} N`;
+    forceNow = ended ? "" : `${event.force_n.toFixed(2)} N`;
   }
 });
 connection.addEventListener("welcome", ({ detail: { features, settings } }) => {
@@ -68,28 +72,30 @@ function describe(pointers) {
 }
 
 let wasBusy = true;
-let plotted = 0;
-function frame(now) {
+const drawPlot = atMostEvery(PLOT_EVERY_MS, (now) => {
+  force.draw(now);
+  byId("force-now").textContent = forceNow;
+});
+function play() {
   played = fingers.at(performance.now());
-  sender.offer(played, view.host, now);
+  sender.offer(played, view.host, performance.now());
+}
+function draw(now) {
   const busy = marks.busy || played.length > 0;
   if (busy || wasBusy) {
     byId("place").textContent = describe(played);
     view.draw();
   }
   wasBusy = busy;
-  if (now - plotted >= PLOT_EVERY_MS) {
-    plotted = now;
-    force.draw(now);
-  }
-  requestAnimationFrame(frame);
+  drawPlot(now);
 }
 
 showStatus(connection);
 askWhenWanted(connection, byId("access"));
 playWith(view, fingers, controls);
 connection.start();
-requestAnimationFrame(frame);
+setInterval(play, PLAY_EVERY_MS);
+everyFrame(connection, draw);
 
 /** For the browser's console and for tests. */
 globalThis.egotouch = { connection, view, marks, fingers };
