@@ -53,9 +53,9 @@ class ViewCall:
 class Fingers:
     """Tells from touch events which views are hovered over and pressed, and which listeners that concerns.
 
-    A finger over overlapping views is on the topmost. One that was on a view stays on it up to its slop beyond the edge, unless it is
-    still inside and another view lies on top there. What is highlighted is what a press gets. A view that one finger has captured
-    ignores others until that finger is lifted: their whole contact passes by.
+    A finger over overlapping views is on the topmost. One that hovered over a view stays on it up to half its slop beyond the edge,
+    unless it is still inside and another view lies on top there. What is highlighted is what a press gets.
+    A view that one finger has captured ignores others until they are lifted: their whole contact passes by.
     """
 
     def __init__(self, views: Sequence[SkinView]) -> None:
@@ -116,7 +116,7 @@ class Fingers:
         return (ViewInput.LIFT_INSIDE if is_inside else ViewInput.LIFT_OUTSIDE), finger.view
 
     def _view_under(self, event: TouchEvent, current: SkinView | None) -> SkinView | None:
-        if current is not None and not current.region.is_hit(event) and current.region.is_kept(event, current.slop_mm):
+        if current is not None and not current.region.is_hit(event) and current.region.is_kept(event, current.hover_slop_mm):
             return current
         return next((view for view in self._top_down if view.region.is_hit(event)), None)
 

@@ -4,7 +4,7 @@
     type = "button"                   # view, button, slider or keypad; later views lie on top of earlier ones
     name = "ok"
     label = "OK"                      # optional
-    slop_mm = 3.0                     # optional
+    slop_mm = 5.0                     # optional
     region = {surface = "palm", host = "left", rectangle = {x_mm = -4, y_mm = 46, width_mm = 30, height_mm = 20}}
 
     [[views]]

@@ -10,9 +10,11 @@ from egotouch_sdk.skin.polygon import Point
 from egotouch_sdk.skin.region import Region
 from egotouch_sdk.touch_event import TouchEvent
 
-#: A finger may leave a view this far before it counts as outside: the accuracy that the host frame aims at
-#: (our choice; Android grows a pressed view by its touch slop of 8 dp = 1.27 mm, View.pointInView).
-SLOP_MM = 3.0
+#: A pressing finger may leave a view this far before it counts as outside: the SDK's own touch slop, since fingers that press in
+#: place seem to move by up to 4.8 mm (our measurement). Android grows a pressed view by its touch slop, too (View.pointInView).
+SLOP_MM = 5.0
+#: Share of the slop by which a hovering finger may leave (Android: hover slop is half of the touch slop, ViewConfiguration).
+HOVER_SHARE = 0.5
 #: An axis shorter than this cannot be set with a fingertip (our choice).
 MIN_AXIS_MM = 10.0
 
@@ -22,7 +24,8 @@ class SkinView:
     """A region that can be touched.
 
     `name` is unique within a layout; `label` is what a renderer writes on it, the name when it is empty.
-    `slop_mm` grows the region for a finger that was inside before, so that noise at the edge neither flickers nor un-presses.
+    `slop_mm` grows the region for a finger that was inside before, so that noise at the edge does not release it; half of it grows it
+    for a hovering finger, so that the highlight does not flicker.
     Raises `LayoutError` for an empty name and a negative slop.
     """
 
@@ -36,6 +39,11 @@ class SkinView:
             raise LayoutError("a skin view has no name", hint="Give each view a name of its own")
         if not (isfinite(self.slop_mm) and self.slop_mm >= 0):
             raise LayoutError(f"slop_mm={self.slop_mm} of {self.name}", hint="Give 0 or more millimetres")
+
+    @property
+    def hover_slop_mm(self) -> float:
+        """How far a hovering finger may leave before the highlight goes."""
+        return self.slop_mm * HOVER_SHARE
 
     @property
     def text(self) -> str:

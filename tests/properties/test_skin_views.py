@@ -16,6 +16,7 @@ from egotouch_sdk.events.order import MAY_FOLLOW
 from egotouch_sdk.joints import FINGERS, Handedness
 from egotouch_sdk.skin import Region, SkinButton, SkinKeypad, SkinSlider, SkinViewGroup, layout_from_dict, layout_to_dict
 from egotouch_sdk.skin.table import TABLE, ViewInput, ViewState
+from egotouch_sdk.skin.views import SLOP_MM
 from egotouch_sdk.surface import Surface
 from egotouch_sdk.touch_event import EventType, TouchEvent
 from tests.support.events import make_event
@@ -133,7 +134,7 @@ def test_every_press_ends_once_and_nothing_stays_captured(layout: list[SkinButto
             elif name in ("onTouchMove", "onDragStart", "onDrag", "onDragEnd", "onForce", "onLongClick"):
                 assert holder.get(view) == event.pointer_id
             elif name == "onClick":
-                assert event.type is EventType.UP and group.view(view).view.region.is_kept(event, 3.0)
+                assert event.type is EventType.UP and group.view(view).view.region.is_kept(event, SLOP_MM)
         log.forget()
         assert {view.name for view in group.snapshot().views if view.is_pressed} <= set(holder)
     assert holder == {}

@@ -55,7 +55,7 @@ def test_a_finger_that_slides_within_the_button_still_clicks(finger: SkinFinger,
 
 def test_within_the_slop_is_still_inside(group: SkinViewGroup, finger: SkinFinger, log: ViewLog) -> None:
     finger.touch(0, 20)
-    finger.slide(12.9, 20)
+    finger.slide(14.9, 20)
     assert group.view("a").is_pressed
     finger.lift()
     log.expect("a.onTouchDown", "a.onTouchMove", "a.onTouchUp", "a.onClick")
@@ -64,7 +64,7 @@ def test_within_the_slop_is_still_inside(group: SkinViewGroup, finger: SkinFinge
 
 def test_beyond_the_slop_it_is_released_and_does_not_click(group: SkinViewGroup, finger: SkinFinger, log: ViewLog) -> None:
     finger.touch(0, 20)
-    finger.slide(13.1, 20)
+    finger.slide(15.1, 20)
     assert not group.view("a").is_pressed
     finger.lift()
     log.expect("a.onTouchDown", "a.onTouchMove", "a.onTouchUp")
@@ -135,7 +135,7 @@ def test_noise_at_the_edge_between_two_views_does_not_flicker(finger: SkinFinger
     for y_mm in (29, 31, 29, 32, 31):
         finger.hover(0, y_mm)
     log.expect("a.onHoverEnter", *["a.onHoverMove"] * 4)
-    finger.hover(0, 34)
+    finger.hover(0, 33)
     finger.hover(0, 29)
     log.expect("a.onHoverExit", "b.onHoverEnter", "b.onHoverMove")
     log.expect_nothing_else()
