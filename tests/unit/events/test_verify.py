@@ -114,6 +114,7 @@ def test_nothing_that_begins_or_ends_something_may_be_lost(kind: str) -> None:
         ("hover_enter | down force_enter | force_exit | move", "move comes between force_exit and the end"),
         ("hover_enter | down force_enter | force_exit | up", "force_exit has another time or reason than the up"),
         ("hover_enter | down | move force_enter drag_start", "drag_start after force_enter"),
+        ("hover_enter | down force_enter long_click | force_exit up", "long_click is caused by down"),
         ("hover_enter | down | up click double_click", "no single click of the right index"),
         ("hover_enter | down | up click | down | cancel | down | up click double_click", "no single click of the right index"),
     ],
@@ -147,6 +148,13 @@ def test_a_broken_order_is_named(text: str, rule: str) -> None:
 def test_a_broken_field_is_named(kind: str, fields: dict[str, object], rule: str) -> None:
     found = rules(change(stream(FULL), kind, **fields))
     assert any(rule in each for each in found), found
+
+
+def test_a_reason_belongs_to_a_cancel() -> None:
+    events = stream("hover_enter | down force_enter | move force_exit | up | hover_exit")
+    assert rules(events) == []
+    found = rules(change(events, "force_exit", reason=CancelReason.TRACKING_LOST))
+    assert found == ["pointer 1: force_exit has another time or reason than the up after it"]
 
 
 def test_any_speed_may_be_allowed() -> None:

@@ -172,6 +172,16 @@ def test_the_second_touch_begins_within_16_mm_of_the_first(finger: ScriptedFinge
     finger.expect_nothing_else()
 
 
+def test_the_place_of_a_click_is_that_of_its_down(finger: ScriptedFinger) -> None:
+    pressed(finger).move(4.0)
+    finger.lift()
+    finger.x_mm -= 20.0
+    finger.hover()
+    finger.tap()
+    finger.expect(MOVE, UP, CLICK, HOVER, DOWN, MOVE, MOVE, UP, CLICK, DOUBLE_CLICK)
+    finger.expect_nothing_else()
+
+
 def test_a_double_click_needs_no_common_pointer(finger: ScriptedFinger) -> None:
     clicked(finger).vanish(3)
     finger.hover()
