@@ -24,6 +24,7 @@ COMMANDS = (
     "egotouch_sdk.cli.record",
     "egotouch_sdk.cli.replay",
     "egotouch_sdk.cli.simulate",
+    "egotouch_sdk.cli.serve",
     "egotouch_sdk.cli.debug_events",
     "egotouch_sdk.cli.hands",
     "egotouch_sdk.cli.estimate",
@@ -38,6 +39,8 @@ COMMANDS = (
 #: Import names of optional packages, by the extra that brings them.
 EXTRA_PACKAGES = {
     "debug": ("rich", "textual"),
+    "lan": ("cryptography", "segno"),
+    "mdns": ("zeroconf",),
     "recording": ("lz4", "mcap", "zstandard"),
     "simulate": ("yaml",),
     "synthetic": ("av", "drjit", "mitsuba", "pygltflib", "scipy"),

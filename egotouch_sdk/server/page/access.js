@@ -2,7 +2,7 @@
 // send) and in sessionStorage.
 
 const KEY = "egotouch.token";
-let pairing_code = takeFromFragment();
+let pairingCode = takeFromFragment();
 
 function takeFromFragment() {
   const given = new URLSearchParams(location.hash.slice(1));
@@ -15,22 +15,23 @@ function takeFromFragment() {
 
 /** What the next Hello should carry. */
 export function access() {
-  return { token: pairing_code ? null : sessionStorage.getItem(KEY), pairing_code };
+  return { token: pairingCode ? null : sessionStorage.getItem(KEY), pairing_code: pairingCode };
 }
 
 /** Keep the token that a pairing code was exchanged for. */
 export function keepToken(token) {
   sessionStorage.setItem(KEY, token);
-  pairing_code = "";
+  pairingCode = "";
 }
 
 /** Ask for a code whenever the server wants one; `dialog` is the page's <dialog> with a form inside. */
 export function askWhenWanted(connection, dialog) {
   const [form, field, why] = [dialog.querySelector("form"), dialog.querySelector("input"), dialog.querySelector("[data-why]")];
   connection.addEventListener("access", ({ detail }) => {
+    const tried = pairingCode || sessionStorage.getItem(KEY);
     sessionStorage.removeItem(KEY);
-    pairing_code = "";
-    why.textContent = detail.reason;
+    pairingCode = "";
+    why.textContent = tried ? `That one is wrong or used up. ${detail.reason}` : detail.reason;
     field.value = "";
     if (!dialog.open) dialog.showModal();
     field.focus();
@@ -38,7 +39,7 @@ export function askWhenWanted(connection, dialog) {
   form.addEventListener("submit", (submitted) => {
     submitted.preventDefault();
     const given = field.value.trim();
-    if (/^\d{6}$/.test(given)) pairing_code = given;
+    if (/^\d{6}$/.test(given)) pairingCode = given;
     else sessionStorage.setItem(KEY, given);
     dialog.close();
     connection.start();

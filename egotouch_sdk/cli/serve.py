@@ -1,0 +1,211 @@
+"""`egotouch serve`: touch events over WebSocket."""
+
+from __future__ import annotations
+
+import argparse
+import asyncio
+import contextlib
+import os
+import signal
+import sys
+from collections.abc import AsyncIterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from egotouch_sdk.cli.options import (
+    Subparsers,
+    add_command,
+    add_pipeline_options,
+    add_source_options,
+    engine_from,
+    open_from,
+    port_number,
+)
+from egotouch_sdk.errors import ConfigError
+
+if TYPE_CHECKING:
+    from egotouch_sdk.server import EventServer, Settings
+    from egotouch_sdk.server.lan import Lan
+    from egotouch_sdk.server.pushing import PushTarget
+    from egotouch_sdk.sources import FrameSource, ObservationSource
+
+EXAMPLES = """\
+  egotouch serve 0                       the first camera, for programs and pages on this machine
+  egotouch serve simulator               no camera: open the page /simulator.html and play the finger
+  egotouch serve taps.yaml               a script, over and over
+  egotouch serve 0 --lan                 headsets on the same network: open the address or scan the code
+  egotouch serve clip.mp4 --once         a video, once
+"""
+SIMULATOR = "simulator"
+DEFAULT_PORT = 8765
+ALL_INTERFACES = "0.0.0.0"
+
+
+def add_parser(subparsers: Subparsers) -> None:
+    """Add `serve` to the command line."""
+    parser = add_command(subparsers, "serve", "touch events over WebSocket, with a live page in the browser", EXAMPLES)
+    add_source_options(parser)
+    add_pipeline_options(parser)
+    parser.add_argument("--once", action="store_true", help="play a source that ends once, and stop then; else it begins again")
+    parser.add_argument("--host", help="address to listen on (default 127.0.0.1; all interfaces with --lan)")
+    parser.add_argument("--port", type=port_number, default=DEFAULT_PORT, help=f"port (default {DEFAULT_PORT}; 0 takes a free one)")
+    parser.add_argument("--lan", action="store_true", help="serve the local network: TLS, and only clients with the token or pairing code")
+    parser.add_argument("--token-file", type=Path, metavar="FILE", help="token that clients must send; made if missing")
+    parser.add_argument("--allow-origin", action="append", default=[], metavar="URL", help="pages from there may connect too (repeatable)")
+    parser.add_argument("--allow-host", action="append", default=[], metavar="NAME", help="another name of the server (repeatable)")
+    parser.add_argument("--mdns", action="store_true", help="with --lan: announce the server to apps on the network")
+    parser.add_argument("--no-page", action="store_true", help="serve no page, only events")
+    parser.add_argument("--debug-view", action="store_true", help="let clients ask for the landmarks of the hands in view")
+    parser.set_defaults(handler=run)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Serve until Ctrl-C, or with --once until the source ends."""
+    from egotouch_sdk.cli.main import EXIT_INTERRUPTED
+
+    lan = _prepare_lan(options)
+    source, push = _open(options)
+    with source:
+        engine = engine_from(options, source)
+        return EXIT_INTERRUPTED if asyncio.run(_serve(options, lan, source, engine, push)) else 0
+
+
+async def _serve(
+    options: argparse.Namespace, lan: Lan | None, source: FrameSource | ObservationSource, engine: Any, push: PushTarget | None
+) -> bool:
+    """Serve; True when Ctrl-C ended it."""
+    from egotouch_sdk.server import EventServer
+    from egotouch_sdk.server.feed import Feed
+
+    stop, interrupted = _stop_on_signals()
+    server = EventServer(_settings(options, lan, engine.config, push))
+    await server.start()
+    feed = Feed(server, source, engine, stall_ms=engine.config.state.stall_ms, repeat=not options.once)
+    try:
+        _introduce(options, lan, server)
+        async with _announced(options, lan, server):
+            feed.start()
+            await asyncio.wait((stop, feed.ended), return_when=asyncio.FIRST_COMPLETED)
+    finally:
+        await feed.stop()
+        await server.stop()
+    if interrupted.is_set():
+        sys.stderr.write("egotouch: interrupted\n")
+    elif feed.ended.done() and (failure := feed.ended.result()):
+        raise failure
+    return interrupted.is_set()
+
+
+def _prepare_lan(options: argparse.Namespace) -> Lan | None:
+    from egotouch_sdk.server.door import LOOPBACK_NAMES
+
+    if not options.lan:
+        if options.host and options.host not in LOOPBACK_NAMES:
+            raise ConfigError(f"{options.host} can be reached by other machines", hint="Add --lan, which brings TLS and a token")
+        if options.mdns:
+            raise ConfigError("--mdns announces a server that only this machine can reach", hint="Add --lan")
+        return None
+    from egotouch_sdk.server.lan import Lan
+    from egotouch_sdk.server.secret_store import config_folder
+
+    return Lan.prepare(config_folder(os.environ, Path.home()), options.token_file, options.allow_host)
+
+
+def _open(options: argparse.Namespace) -> tuple[FrameSource | ObservationSource, PushTarget | None]:
+    if options.source != SIMULATOR:
+        return open_from(options), None
+    from egotouch_sdk.server.pushing import SimulatorTarget
+    from egotouch_sdk.simulator.live_source import DEFAULT_FPS, LiveSource
+
+    simulator = LiveSource(options.fps or DEFAULT_FPS)
+    return simulator, SimulatorTarget(simulator)
+
+
+def _settings(options: argparse.Namespace, lan: Lan | None, config: Any, push: PushTarget | None) -> Settings:
+    from egotouch_sdk.server import Settings
+    from egotouch_sdk.server.access import OpenAccess, TokenAccess
+    from egotouch_sdk.server.door import Door
+    from egotouch_sdk.server.pages import SHIPPED_PAGE, Pages
+    from egotouch_sdk.server.secret_store import load_token
+    from egotouch_sdk.server.welcome import ServerInfo
+
+    features = [name for name, on in ((SIMULATOR, options.source == SIMULATOR), ("landmarks", options.debug_view)) if on]
+    token = lan.token if lan else load_token(options.token_file) if options.token_file else ""
+    access = lan.access(lambda code: _show_code(lan, options.port, code)) if lan else TokenAccess(token) if token else OpenAccess()
+    return Settings(
+        host=options.host or (ALL_INTERFACES if lan else "127.0.0.1"),
+        port=options.port,
+        tls=lan.tls if lan else None,
+        door=Door.of((*(lan.addresses + lan.names if lan else ()), *options.allow_host), options.allow_origin),
+        access=access,
+        token=token,
+        info=ServerInfo.of(config, *features),
+        pages=Pages(None if options.no_page else SHIPPED_PAGE),
+        source=Path(options.source).name,
+        landmarks=options.debug_view,
+        push=push,
+    )
+
+
+def _introduce(options: argparse.Namespace, lan: Lan | None, server: EventServer) -> None:
+    """What to open, one address per line."""
+    from egotouch_sdk.clock import now_ns
+    from egotouch_sdk.server.access import TokenAccess
+    from egotouch_sdk.server.lan import page_url
+
+    scheme = "https" if lan else "http"
+    hosts = (*lan.addresses, *lan.names[1:]) if lan else (server.settings.host,)
+    page = "simulator.html" if options.source == SIMULATOR else ""
+    print(f"Touch events of {options.source}; Ctrl-C stops.")
+    for host in hosts:
+        url = page_url(scheme, host, server.port)
+        if not options.no_page:
+            print(f"  page       {url}{page}")
+        print(f"  WebSocket  {url.replace('http', 'ws', 1)}  (egotouch.v1.pb, egotouch.v1.json)")
+    if lan:
+        print(f"  SHA-256    {lan.fingerprint}  (of the certificate, which browsers do not know: accept it once)")
+    if isinstance(server.settings.access, TokenAccess):
+        server.settings.access.offer_code(now_ns())
+    if options.debug_view:
+        print("  Landmarks of the hands in view leave this program for clients that ask: --debug-view is on.")
+    sys.stdout.flush()
+
+
+def _show_code(lan: Lan, port: int, code: str) -> None:
+    from egotouch_sdk.server.lan import qr_code
+
+    url = lan.pairing_url(port, code)
+    print(f"  pairing    {code}  (two minutes, one headset)\n  or open    {url}\n{qr_code(url)}", flush=True)
+
+
+def _announced(options: argparse.Namespace, lan: Lan | None, server: EventServer) -> contextlib.AbstractAsyncContextManager[None]:
+    if lan is None or not options.mdns:
+        return _nothing()
+    from egotouch_sdk.server.announce import announced
+
+    return announced(lan.names[0] if lan.names else "egotouch", lan.addresses, server.port, lan.fingerprint)
+
+
+@contextlib.asynccontextmanager
+async def _nothing() -> AsyncIterator[None]:
+    yield
+
+
+def _stop_on_signals() -> tuple[asyncio.Future[None], asyncio.Event]:
+    """A future that SIGINT and SIGTERM complete, and whether it was SIGINT."""
+    loop = asyncio.get_running_loop()
+    stop: asyncio.Future[None] = loop.create_future()
+    interrupted = asyncio.Event()
+
+    def on_signal(number: int) -> None:
+        if number == signal.SIGINT:
+            interrupted.set()
+        if not stop.done():
+            stop.set_result(None)
+
+    for number in (signal.SIGINT, signal.SIGTERM):
+        try:
+            loop.add_signal_handler(number, on_signal, number)
+        except NotImplementedError:  # Windows' event loop has none
+            signal.signal(number, lambda received, _: loop.call_soon_threadsafe(on_signal, received))
+    return stop, interrupted
