@@ -29,6 +29,16 @@ class ReplayedFrame:
         """True when both are the same byte for byte."""
         return _as_bytes(self.recorded) == _as_bytes(self.replayed)
 
+    @property
+    def rounding(self) -> float | None:
+        """Largest difference of a number, where the events are otherwise the same; None where they are not.
+
+        Processors add in different orders and round differently, so that another machine's numbers may differ in the last digits.
+        """
+        if len(self.recorded) != len(self.replayed):
+            return None
+        return _largest_difference([event.to_dict() for event in self.recorded], [event.to_dict() for event in self.replayed])
+
 
 def replay(recording: RecordingSource, config: TouchConfig | None = None) -> Iterator[ReplayedFrame]:
     """Yield every frame with its events then and now; `config` replaces the recorded settings.
@@ -51,3 +61,15 @@ def _on_wire(events: tuple[TouchEvent, ...]) -> tuple[TouchEvent, ...]:
 
 def _as_bytes(events: tuple[TouchEvent, ...]) -> list[bytes]:
     return [event_to_proto(event).SerializeToString(deterministic=True) for event in events]
+
+
+def _largest_difference(before: object, now: object) -> float | None:
+    """The largest difference between two numbers at the same place of two nested values; None when anything else differs."""
+    if isinstance(before, float) and isinstance(now, float):
+        return abs(before - now)
+    if isinstance(before, dict) and isinstance(now, dict) and before.keys() == now.keys():
+        before, now = list(before.values()), list(now.values())
+    if isinstance(before, list) and isinstance(now, list) and len(before) == len(now):
+        inner = [_largest_difference(*pair) for pair in zip(before, now, strict=True)]
+        return None if None in inner else max((value for value in inner if value is not None), default=0.0)
+    return 0.0 if before == now else None

@@ -51,7 +51,7 @@ def replay(options: argparse.Namespace) -> int:
         for line in unified_diff(tally.recorded_lines, tally.replayed_lines, "recorded", "replayed", n=0, lineterm=""):
             print(line)
     different = tally.first_difference
-    verdict = "identical" if different is None else f"different from the {tally.recorded} recorded"
+    verdict = "identical" if different is None else tally.verdict
     sys.stderr.write(f"{tally.replayed} events, {verdict}\n")
     if different is None or config:
         return 0
@@ -66,14 +66,24 @@ class _Tally:
     recorded: int = 0
     replayed: int = 0
     first_difference: ReplayedFrame | None = None
+    rounding: float | None = 0.0
     recorded_lines: list[str] = field(default_factory=list)
     replayed_lines: list[str] = field(default_factory=list)
+
+    @property
+    def verdict(self) -> str:
+        """How the events differ."""
+        if self.rounding is None:
+            return f"different from the {self.recorded} recorded"
+        return f"the same as recorded but for numbers, which differ by up to {self.rounding:.1g}"
 
     def add(self, frame: ReplayedFrame, *, with_lines: bool) -> None:
         self.recorded += len(frame.recorded)
         self.replayed += len(frame.replayed)
-        if self.first_difference is None and not frame.is_identical:
-            self.first_difference = frame
+        if not frame.is_identical:
+            self.first_difference = self.first_difference or frame
+            rounding = frame.rounding
+            self.rounding = None if self.rounding is None or rounding is None else max(self.rounding, rounding)
         if with_lines:
             self.recorded_lines += _lines(frame.recorded)
             self.replayed_lines += _lines(frame.replayed)

@@ -16,6 +16,7 @@ from egotouch_sdk.engine import EventEngine
 from egotouch_sdk.recording import Header, Recorder, RecordingSource, topics
 from egotouch_sdk.recording.container import message_count
 from egotouch_sdk.simulator import shipped_script
+from egotouch_sdk.touch_event import EventType
 from tests.support.recordings import record_taps, taps
 
 Command = Callable[..., tuple[int, str, str]]
@@ -82,10 +83,23 @@ def test_a_difference_is_named_with_version_and_model(egotouch: Command, tmp_pat
     code, out, err = egotouch("replay", file)
     first, *details = err.splitlines()
     assert (code, out) == (1, "")
-    assert "different from the" in first
+    assert first.endswith("the same as recorded but for numbers, which differ by up to 1")
     assert details[0].startswith("  first difference in frame 5, ")
     assert any("recorded by egotouch 0.0.1" in line for line in details)
     assert any("another touch.onnx: 000000000000" in line for line in details)
+
+
+def test_another_event_is_more_than_another_number(egotouch: Command, tmp_path: Path) -> None:
+    """A recording of a version that reported no clicks."""
+    file, engine = tmp_path / "other.mcap", EventEngine()
+    with Recorder(file, Header(engine.config, engine.thresholds)) as recorder:
+        for observation in taps(20):
+            result = engine.process(observation)
+            recorder.write(replace(result, events=tuple(event for event in result.events if event.type is not EventType.CLICK)))
+    code, _, err = egotouch("replay", file)
+    assert code == 1
+    assert "different from the" in err
+    assert "+type=click pointer_id=1 contact_id=1" in err
 
 
 def test_pictures_are_recorded_when_asked_for(egotouch: Command, clip: Path, tmp_path: Path) -> None:
