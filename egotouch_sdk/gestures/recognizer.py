@@ -10,7 +10,7 @@ Timing cases. Times count from the DOWN, in capture time; numbers are the defaul
     held, unseen at 400 ms, lifted         up, click                 nobody saw it held
     pressed at 2.5 N or more for 100 ms    long_click, however early: a deep press
     ... weaker in one of those frames      the 100 ms begin anew
-    seen 16 mm or more away at the lift    up, no click              it slid away between two frames
+    seen more than 16 mm off at the lift   up, no click              it slid away between two frames
 
   double clicks: both of the same finger, DOWNs within 16 mm, on whatever surface and pointer
     second DOWN 40 to 300 ms after the UP  ... down, up, click (count 2), double_click
@@ -27,8 +27,8 @@ Timing cases. Times count from the DOWN, in capture time; numbers are the defaul
     lift                                   drag_end, up
     lift at 50 mm/s or more                drag_end, up, fling with at most 1270 mm/s
     lift after resting                     drag_end, up              slower than that for 40 ms or two frames, whichever is longer
-    lift after an unseen gap of more       drag_end, up              nothing is known of its speed
-    lift outside the slop, never a drag    up                        no drag_start comes with an UP
+    lift after a gap longer than both      drag_end, up              nothing is known of its speed any more
+    lift outside the slop, never a drag    up, click within 16 mm    no drag_start comes with an UP
 
   force presses
     1.5 N or more, also in the DOWN        force_enter
@@ -37,7 +37,7 @@ Timing cases. Times count from the DOWN, in capture time; numbers are the defaul
     lift                                   force_exit, up
 
   in all of them
-    unseen for up to 2 frames              nothing; velocity and timers go on with the next frame seen
+    unseen for up to 2 frames              nothing; timers go on with the next frame seen, after 2 velocity begins anew
     lost, swapped, stalled, ended          drag_end and force_exit with the reason of the cancel that follows; never up, click, fling
 
 Order: what one frame causes follows the raw event of that frame, with its time and place: drag, force, long_click. What a lift or
