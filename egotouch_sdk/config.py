@@ -259,6 +259,18 @@ class HostConfig(_Section):
         lt=140,
         description="The wearer's own length wrist to middle MCP in millimetres; None takes the usual one. It scales x_mm and y_mm.",
     )
+    position_min_cutoff_hz: float = Field(
+        default=3.0, gt=0, description="Cutoff of the 1 euro filter on x_mm and y_mm at rest (Casiez et al. 2012; tuned on the demo clip)."
+    )
+    position_beta_hz_s_mm: float = Field(
+        default=0.1, ge=0, description="Hertz of cutoff gained per mm/s of speed; more lags less and jitters more (tuned on the demo clip)."
+    )
+    angle_min_cutoff_hz: float = Field(default=1.5, gt=0, description="The same cutoff for pitch_rad and yaw_rad (our choice).")
+    angle_beta_hz_s_rad: float = Field(default=0.5, ge=0, description="Hertz of cutoff gained per rad/s (our choice).")
+    gap_ms: float = Field(default=120.0, gt=0, description="A finger unseen for longer is not smoothed with its past (our choice).")
+    jump_mm: float = Field(
+        default=40.0, gt=0, description="A finger that moves this far in one frame is not smoothed with its past, so that jumps stay visible."
+    )
 
 
 class TouchConfig(_Section):

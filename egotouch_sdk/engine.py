@@ -8,7 +8,7 @@ from egotouch_sdk.config import TouchConfig
 from egotouch_sdk.errors import FrameError, GrammarError
 from egotouch_sdk.events import GrammarVerifier
 from egotouch_sdk.events.order import RAW
-from egotouch_sdk.filters import MedianFilter
+from egotouch_sdk.filters import HostPointFilter, MedianFilter
 from egotouch_sdk.frame_observation import FrameObservation
 from egotouch_sdk.frame_result import FrameResult
 from egotouch_sdk.gestures import GestureRecognizer, GestureStates
@@ -69,6 +69,7 @@ class EventEngine:
         self.config = config or TouchConfig()
         self.thresholds = thresholds.overridden_by(self.config.state)
         self._filter = MedianFilter(self.config.state.coast_frames)
+        self._points = HostPointFilter(self.config.host)
         self._machine = TouchStateMachine(self.config.state, self.thresholds)
         self._gestures = GestureRecognizer(self.config.gestures)
         self._last_events: dict[int, TouchEvent] = {}
@@ -115,8 +116,11 @@ class EventEngine:
 
     def _locate(self, observation: FrameObservation, tip: Fingertip) -> HostPoint | None:
         pair = next(pair for pair in observation.gate.pairs if pair.touching.hand_id == tip.hand_id)
-        place = locate_exact if has_exact_landmarks(pair) else locate
-        return place(pair, tip.finger, self.config.host, mirrored=self.config.hands.mirrored)
+        host, mirrored = self.config.host, self.config.hands.mirrored
+        if has_exact_landmarks(pair):
+            return locate_exact(pair, tip.finger, host, mirrored=mirrored)
+        point = locate(pair, tip.finger, host, mirrored=mirrored)
+        return point and self._points.apply(tip.hand_id, tip.finger, point, observation.timestamp_ns)
 
     def _advance_time(self, timestamp_ns: int) -> None:
         if self._time_ns is not None:
@@ -141,4 +145,5 @@ class EventEngine:
 
     def _forget(self) -> None:
         self._filter.reset()
+        self._points.reset()
         self._gestures.forget_clicks()

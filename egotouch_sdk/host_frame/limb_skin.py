@@ -14,6 +14,7 @@ _Terms = tuple[float, float, float, float, float, float]
 
 #: The hand ends at its wrist joint; MediaPipe's wrist landmark lies 16 mm ahead of it (our measurement on the generic WebXR hand).
 WRIST_JOINT_Y_MM = -16.0
+FOREARM = frozenset({Surface.INNER_FOREARM, Surface.OUTER_FOREARM})
 
 
 @dataclass(frozen=True, slots=True)
