@@ -1,14 +1,16 @@
 """Recordings: what perception found in each frame, with the events of it, in an MCAP file that can be replayed.
 
-pipeline = TouchPipeline()
-header = Header(pipeline.config, pipeline.engine.thresholds, model_sha256(pipeline.config))
-with Recorder("session.mcap", header) as recorder, open_source(0) as camera:
-    for frame in camera:
-        recorder.write(pipeline.process(frame))
-    recorder.end(frame.timestamp_ns, pipeline.finish(frame.timestamp_ns))
+Record a camera, and read it back:
 
-for observation in RecordingSource("session.mcap"):
-    ...
+    pipeline = TouchPipeline()
+    header = Header(pipeline.config, pipeline.engine.thresholds, model_sha256(pipeline.config))
+    with Recorder("session.mcap", header) as recorder, open_source(0) as camera:
+        for frame in camera:
+            recorder.write(pipeline.process(frame))
+        recorder.end(frame.timestamp_ns, pipeline.finish(frame.timestamp_ns))
+
+    for observation in RecordingSource("session.mcap"):
+        ...
 """
 
 from __future__ import annotations
