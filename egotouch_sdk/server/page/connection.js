@@ -23,7 +23,7 @@ const BACKOFF_MAX_MS = 5000;
 const WELCOME_TIMEOUT_MS = 8000;
 const WATCH_EVERY_MS = 50;
 const PROBES_AT_START = 8;
-const PROBE_EVERY_MS = 1000;
+const PROBE_EVERY_MS = 250;
 
 /** Numbers for counters: merged are older moves that came inside newer ones, dropped belong to contacts that had ended here. */
 const NOTHING_YET = { edges: 0, moves: 0, merged: 0, dropped: 0, cancelledHere: 0, reconnects: 0 };
