@@ -1,4 +1,4 @@
-"""`egotouch evaluate`: how good the touch model is on real patches and on video without touches."""
+"""`egotouch evaluate`: the touch model on real patches and on video without touches, the host frame on rendered touches."""
 
 from __future__ import annotations
 
@@ -10,10 +10,17 @@ from typing import Any
 
 from egotouch_sdk.cli.options import Subparsers, add_command, add_pipeline_options, config_from, positive_float
 from egotouch_sdk.cli.output import print_json
+from egotouch_sdk.errors import ConfigError
 
 EXAMPLES = """\
   egotouch evaluate real thumb_patches                 AUROC, accuracy and force on labelled real pictures
   egotouch evaluate false-touches clips/*.mp4          false touches per minute where nothing is touched
+  egotouch evaluate host-frame                         place and angles of the demo clip's touches against the truth
+"""
+HOST_FRAME_EXAMPLES = """\
+  egotouch evaluate host-frame                               the demo clip's touches
+  egotouch evaluate host-frame --poses 500                   random poses with a tracker's noise
+  egotouch evaluate host-frame --stills data/host_frame --render 200
 """
 #: Where the TIP landmark lies in the finger-up pictures of the thumb study, and their scale (measured on them).
 THUMB_TIP_PX = (316.0, 175.0)
@@ -40,6 +47,14 @@ def add_parser(subparsers: Subparsers) -> None:
     add_pipeline_options(false)
     false.add_argument("--json", action="store_true", help="one JSON object per video and one for all on stdout")
     false.set_defaults(handler=evaluate_false_touches)
+    host = add_command(kinds, "host-frame", "compare place and angles with the generator's truth", HOST_FRAME_EXAMPLES)
+    kind = host.add_mutually_exclusive_group()
+    kind.add_argument("--poses", type=int, metavar="N", help="N random poses with a tracker's noise instead of the demo clip")
+    kind.add_argument("--stills", type=Path, metavar="DIR", help="rendered stills in DIR through the hand tracker")
+    host.add_argument("--render", type=int, metavar="N", help="with --stills: first render until N are there, 2 s each")
+    host.add_argument("--exact", action="store_true", help="with --poses: without noise")
+    host.add_argument("--json", action="store_true", help="one JSON object on stdout")
+    host.set_defaults(handler=evaluate_host_frame)
 
 
 def evaluate_real(options: argparse.Namespace) -> int:
@@ -76,6 +91,27 @@ def evaluate_false_touches(options: argparse.Namespace) -> int:
         total = total + counted
         _print_false_touches(spec, counted, options.json)
     _print_false_touches("all", total, options.json)
+    return 0
+
+
+def evaluate_host_frame(options: argparse.Namespace) -> int:
+    """Print errors of place and angles per surface."""
+    from egotouch_sdk.evaluation.host_frame import format_report, host_report
+    from egotouch_sdk.cli.host_frame_cases import demo_cases, pose_cases, still_cases
+
+    if options.render is not None and options.stills is None or options.exact and options.poses is None:
+        raise ConfigError("--render needs --stills DIR, --exact needs --poses N")
+    if options.poses is not None:
+        cases = pose_cases(options.poses, exact=options.exact)
+    elif options.stills is not None:
+        cases = still_cases(options.stills, options.render or 0, lambda line: print(line, file=sys.stderr))
+    else:
+        cases = demo_cases()
+    report = host_report(cases)
+    if options.json:
+        print_json(report)
+    else:
+        print(format_report(report))
     return 0
 
 
