@@ -21,6 +21,7 @@ from egotouch_sdk.cli.options import (
     open_from,
     port_number,
 )
+from egotouch_sdk.cli.views import open_browser
 from egotouch_sdk.errors import ConfigError
 
 if TYPE_CHECKING:
@@ -38,7 +39,8 @@ EXAMPLES = """\
 """
 SIMULATOR = "simulator"
 DEFAULT_PORT = 8765
-ALL_INTERFACES = "0.0.0.0"
+#: What asyncio calls every interface, IPv4 and IPv6.
+ALL_INTERFACES = ""
 
 
 def add_parser(subparsers: Subparsers) -> None:
@@ -47,6 +49,12 @@ def add_parser(subparsers: Subparsers) -> None:
     add_source_options(parser)
     add_pipeline_options(parser)
     parser.add_argument("--once", action="store_true", help="play a source that ends once, and stop then; else it begins again")
+    add_server_options(parser)
+    parser.set_defaults(handler=run, browser=False)
+
+
+def add_server_options(parser: argparse._ActionsContainer) -> None:
+    """How the server is reached and by whom."""
     parser.add_argument("--host", help="address to listen on (default 127.0.0.1; all interfaces with --lan)")
     parser.add_argument("--port", type=port_number, default=DEFAULT_PORT, help=f"port (default {DEFAULT_PORT}; 0 takes a free one)")
     parser.add_argument("--lan", action="store_true", help="serve the local network: TLS, and only clients with the token or pairing code")
@@ -56,7 +64,6 @@ def add_parser(subparsers: Subparsers) -> None:
     parser.add_argument("--mdns", action="store_true", help="with --lan: announce the server to apps on the network")
     parser.add_argument("--no-page", action="store_true", help="serve no page, only events")
     parser.add_argument("--debug-view", action="store_true", help="let clients ask for the landmarks of the hands in view")
-    parser.set_defaults(handler=run)
 
 
 def run(options: argparse.Namespace) -> int:
@@ -105,6 +112,8 @@ def _prepare_lan(options: argparse.Namespace) -> Lan | None:
         if options.mdns:
             raise ConfigError("--mdns announces a server that only this machine can reach", hint="Add --lan")
         return None
+    if options.port == 0:
+        raise ConfigError("--lan and --port 0 do not go together", hint="Choose a port that can be opened in a firewall")
     from egotouch_sdk.server.lan import Lan
     from egotouch_sdk.server.secret_store import config_folder
 
@@ -169,6 +178,8 @@ def _introduce(options: argparse.Namespace, lan: Lan | None, server: EventServer
     if options.debug_view:
         print("  Landmarks of the hands in view leave this program for clients that ask: --debug-view is on.")
     sys.stdout.flush()
+    if options.browser and not options.no_page:
+        open_browser(page_url(scheme, hosts[0], server.port) + page)
 
 
 def _show_code(lan: Lan, port: int, code: str) -> None:

@@ -48,7 +48,7 @@ class ServerProcess:
 
     def start(self) -> None:
         """Start and wait for the address that it prints."""
-        command = [sys.executable, "-m", "egotouch_sdk.cli.main", "serve", "simulator", "--port", self._port, *self._arguments]
+        command = [sys.executable, "-m", "egotouch_sdk.cli.main", "simulate", "--no-browser", "--port", self._port, *self._arguments]
         # A loaded machine may hold the server up for longer than a camera may stall.
         environment = os.environ | {"EGOTOUCH_STATE__STALL_MS": "5000"}
         self._process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment)
