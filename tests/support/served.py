@@ -73,13 +73,14 @@ class ServedWorld:
 
 
 class LinkedClient:
-    """A client library at the other end of a link that the test can stall and cut."""
+    """A client library at the other end of a link that the test can stall and cut; `ages` are those of events as the app got them."""
 
     def __init__(self, world: ServedWorld, subprotocol: str, session: dict[str, Any]) -> None:
         self.world = world
         self.model = ClientModel()
         self.subscribe = pb.Subscribe()
         self.stalled = False
+        self.ages: list[tuple[EventType, int]] = []
         self._spelling = SUBPROTOCOLS[subprotocol]
         self._session_options = {"limits": world.limits} | session
         self.session: Session | None = None
@@ -122,8 +123,18 @@ class LinkedClient:
 
     def pump(self) -> None:
         """Read what the server has to say, unless stalled."""
-        while self.session is not None and not self.stalled and (data := self.session.next_message(self.world.now_ns)) is not None:
-            self.model.take(from_json(pb.ServerMessage, data) if isinstance(data, str) else pb.ServerMessage.FromString(data))
+        while not self.stalled and self.read_one():
+            pass
+
+    def read_one(self) -> bool:
+        """Read one message; False when there is none."""
+        data = self.session.next_message(self.world.now_ns) if self.session is not None else None
+        if data is None:
+            return False
+        seen = len(self.model.acted)
+        self.model.take(from_json(pb.ServerMessage, data) if isinstance(data, str) else pb.ServerMessage.FromString(data))
+        self.ages += ((event.type, self.world.now_ns - event.timestamp_ns) for event in self.model.acted[seen:])
+        return True
 
     def resume_reading(self) -> None:
         """Come out of a stall."""
