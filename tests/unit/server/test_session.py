@@ -122,6 +122,41 @@ def test_a_client_that_hears_only_heartbeats_can_resume(world: ServedWorld, fing
     client.expect_nothing()
 
 
+@pytest.mark.parametrize("read", range(8))
+def test_a_cut_in_the_middle_of_a_backlog(world: ServedWorld, finger: ServedFinger, read: int) -> None:
+    client = world.join(late_edges=True)
+    client.stalled = True
+    finger.enter()
+    finger.tap()
+    finger.press()
+    finger.move(2)
+    finger.lift()
+    for _ in range(read):
+        client.read_one()
+    client.cut()
+    client.stalled = False
+    assert client.reconnect()
+    assert [event.type for event in client.model.heard if event.type.is_edge] == [event.type for event in world.edges]
+
+
+def test_a_cut_between_the_parts_of_one_frame(world: ServedWorld, finger: ServedFinger) -> None:
+    client = world.join(late_edges=True)
+    finger.enter()
+    finger.press()
+    client.cut()
+    finger.lift()
+    client.open()
+    client.stalled = True
+    client.say_hello()
+    client.read_one()
+    client.read_one()
+    assert client.model.heard[-1].type is E.UP
+    client.cut()
+    client.stalled = False
+    assert client.reconnect()
+    assert [event.type for event in client.model.heard] == [E.HOVER_ENTER, E.DOWN, *CLICKED]
+
+
 def test_a_short_cut_goes_unnoticed(world: ServedWorld, finger: ServedFinger) -> None:
     client = world.join()
     finger.enter()
