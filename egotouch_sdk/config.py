@@ -201,8 +201,8 @@ class GestureConfig(_Section):
     touch_slop_mm: float = Field(
         default=5.0,
         gt=0,
-        description="A touch that moves farther is a drag. Fingers that press in place seem to move by up to 4 mm, of which the skin "
-        "gives way by up to 3.3 mm (our measurement on the demo clip); Android's 8 dp are 1.27 mm.",
+        description="A touch that moves farther is a drag. Fingers that press in place seem to move by up to 4 mm (our measurement on the "
+        "demo clip); Android's 8 dp are 1.27 mm.",
     )
     double_click_slop_mm: float = Field(
         default=16.0, gt=0, description="The second click of a double click lies this close to the first (Android: 100 dp = 15.9 mm)."

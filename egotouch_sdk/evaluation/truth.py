@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
 from egotouch_sdk.config import GestureConfig
 from egotouch_sdk.errors import SourceError
 from egotouch_sdk.gestures import GestureRecognizer
-from egotouch_sdk.joints import Finger, HandJoint, Handedness
+from egotouch_sdk.joints import Finger, Handedness
 from egotouch_sdk.surface import Surface
 from egotouch_sdk.touch_event import EventType, TouchEvent
 
@@ -32,9 +32,7 @@ class TrueTouch:
 class ClipTruth:
     """Ground truth of a clip: its touches, and for every touching fingertip and frame number its force and its place.
 
-    `force_n` is in newtons. `place_mm` is on the host limb: the fingertip relative to the axis wrist to middle MCP as seen, so that
-    neither a moving head nor a moving limb moves it, in millimetres at the scale of the touch's first frame. A truth without
-    landmarks has no places; nothing in it is a drag.
+    `force_n` is in newtons, `place_mm` the touched point in the host frame (x, y). A truth without places has no drags.
     """
 
     fps: float
@@ -57,9 +55,9 @@ class ClipTruth:
             ]
             force_n = {(_tip(frame), index): float(frame["force_n"]) for index, frame in frames.items() if frame["touching"]}
             place_mm = {
-                (touch.tip, index): place
-                for touch in touches
-                for index, place in _places(frames, range(touch.start_frame, touch.end_frame + 1))
+                (_tip(frame), index): (float(frame["at_mm"][0]), float(frame["at_mm"][1]))
+                for index, frame in frames.items()
+                if frame["touching"] and "at_mm" in frame
             }
         except (KeyError, TypeError, ValueError, IndexError, ZeroDivisionError) as error:
             raise SourceError(f"the ground truth has another form ({error!r})", hint="Compare it with assets/demo_truth.json") from error
@@ -108,18 +106,3 @@ class ClipTruth:
 
 def _tip(frame: Mapping[str, Any]) -> Tip:
     return str(frame["hand"]), str(frame["finger"])
-
-
-def _places(frames: Mapping[int, Mapping[str, Any]], indices: range) -> Iterator[tuple[int, Place]]:
-    """Places (x, y) in mm of the touching fingertip relative to the host's axis, for the frames that have landmarks."""
-    scale_mm = None
-    for index in indices:
-        frame = frames[index]
-        if "landmarks_px" not in frame:
-            return
-        host = frame["landmarks_px"][Handedness(frame["hand"]).other.value]
-        wrist, knuckle = complex(*host[HandJoint.WRIST]), complex(*host[HandJoint.MIDDLE_FINGER_MCP])
-        if scale_mm is None:
-            scale_mm = abs(knuckle - wrist) / float(frame["px_per_mm"])
-        place = (complex(*frame["tip_px"]) - wrist) / (knuckle - wrist) * scale_mm
-        yield index, (place.imag, place.real)

@@ -97,21 +97,16 @@ def test_a_clip_left_early_is_scored_on_what_had_begun() -> None:
 
 
 def moving_truth(way_mm: float) -> ClipTruth:
-    """A touch from frame 10 to 30 that goes `way_mm` along the host at 2 px per mm, while the whole picture shifts."""
+    """A touch from frame 10 to 30 that goes `way_mm` along the host."""
 
     def frame(index: int) -> dict[str, Any]:
-        shift_px, share = 3.0 * index, min(max(index - 10, 0), 20) / 20
-        host = [[100.0 + shift_px, 400.0]] * 21
-        host[9] = [100.0 + shift_px, 240.0]
         return {
             "frame": index,
             "touching": 10 <= index <= 30,
             "force_n": 2.0 if 15 <= index <= 25 else 0.5,
             "finger": "index",
             "hand": "right",
-            "tip_px": [100.0 + shift_px, 300.0 - 2 * way_mm * share],
-            "px_per_mm": 2.0,
-            "landmarks_px": {"left": host},
+            "at_mm": [5.0, 30.0 + way_mm * min(max(index - 10, 0), 20) / 20],
         }
 
     return ClipTruth.from_dict({"fps": FPS, "frames": [frame(i) for i in range(60)], "touches": [{"start_frame": 10, "end_frame": 30}]})
