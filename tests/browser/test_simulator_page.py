@@ -131,9 +131,9 @@ def test_two_fingers_on_a_touch_screen(phone: PlayedPage, listener: Listener) ->
     events = listener.take(4)
     assert sorted(kinds(events)) == ["DOWN", "DOWN", "HOVER_ENTER", "HOVER_ENTER"]
     downs = {event["finger"]: event for event in events if event["type"] == "EVENT_TYPE_DOWN"}
-    assert set(downs) == {"FINGER_INDEX", "FINGER_THUMB"}
+    assert set(downs) == {"FINGER_INDEX", "FINGER_MIDDLE"}
     assert_at(downs["FINGER_INDEX"], "PALM", *places[0])
-    assert_at(downs["FINGER_THUMB"], "PALM", *places[1])
+    assert_at(downs["FINGER_MIDDLE"], "PALM", *places[1])
     phone.touch()
     assert sorted(kinds(listener.take(4))) == ["HOVER_EXIT", "HOVER_EXIT", "UP", "UP"]
     listener.hear_nothing()

@@ -31,8 +31,8 @@ const NOTHING_YET = { edges: 0, moves: 0, merged: 0, dropped: 0, cancelledHere: 
 export class Connection extends EventTarget {
   #options;
   #socket = null;
-  #state = "disconnected";
-  #detail = "Not connected yet.";
+  #state = "connecting";
+  #detail = "";
   #welcome = null;
   #resume = null;
   #attempt = 0;

@@ -48,7 +48,7 @@ connection.addEventListener("events", ({ detail: { events, local } }) => {
 connection.addEventListener("timing", ({ detail }) => {
   const now = performance.now();
   latency.add("sent", "#4ade9c", now, detail.sendMs);
-  latency.add("age", "#5ac8fa", now, detail.ageMs);
+  latency.add("here", "#5ac8fa", now, detail.ageMs);
 });
 connection.addEventListener("welcome", ({ detail: { settings, features } }) => {
   if (settings.force_enter_n) force.level = { value: settings.force_enter_n, name: "onForce" };
@@ -80,9 +80,9 @@ for (const finger of FINGERS) {
   byId("legend").append(item);
 }
 
-function percentiles() {
-  const of = (key) => [0.5, 0.95].map((share) => latency.percentile(key, share)?.toFixed(1)).join(" / ");
-  return latency.percentile("age", 0.5) === null ? "" : `sent ${of("sent")} · here ${of("age")} ms`;
+function percentiles(key) {
+  const [middle, high] = [0.5, 0.95].map((share) => latency.percentile(key, share)?.toFixed(1));
+  return middle === undefined ? "" : `${key} ${middle} / ${high} ms`;
 }
 
 let wasBusy = true;
@@ -97,7 +97,10 @@ function draw(now) {
   drawPlots(now);
 }
 
-setInterval(() => (byId("latency-now").textContent = percentiles()), 500);
+setInterval(() => {
+  byId("latency-sent").textContent = percentiles("sent");
+  byId("latency-here").textContent = percentiles("here");
+}, 500);
 showStatus(connection);
 showCounters(connection, byId("counters"));
 showHands(connection);

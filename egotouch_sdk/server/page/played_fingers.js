@@ -96,10 +96,11 @@ export class PlayedFingers {
     return [...this.#fingers.values()].some((played) => played.finger === finger);
   }
 
-  /** The chosen finger, its neighbours, the rest. */
+  /** The chosen finger, its neighbours (the one farther from the thumb first), the rest. */
   #order() {
     const chosen = FINGERS.indexOf(this.#settings().finger);
-    return [...FINGERS].sort((a, b) => Math.abs(FINGERS.indexOf(a) - chosen) - Math.abs(FINGERS.indexOf(b) - chosen));
+    const distance = (finger) => Math.abs(FINGERS.indexOf(finger) - chosen - 0.1);
+    return [...FINGERS].sort((a, b) => distance(a) - distance(b));
   }
 
   #free() {

@@ -9,6 +9,8 @@ const GATE = {
   TOO_FAR: "hands too far apart",
   NO_ACTIVE_FINGER: "no finger points at the skin",
 };
+/** States that need a word of explanation. */
+const TROUBLE = new Set(["disconnected", "stale"]);
 const LABELS = { disconnected: "Disconnected", connecting: "Connecting", live: "Live", stale: "Stale" };
 
 /** Keep the header of the page up to date with `connection`. */
@@ -17,7 +19,7 @@ export function showStatus(connection, root = document) {
   const show = () => {
     pill.textContent = LABELS[connection.state];
     pill.dataset.state = document.body.dataset.state = connection.state;
-    detail.textContent = connection.state === "live" ? "" : connection.detail;
+    detail.textContent = TROUBLE.has(connection.state) ? connection.detail : "";
     if (connection.state !== "live") server.textContent = "";
   };
   connection.addEventListener("state", show);

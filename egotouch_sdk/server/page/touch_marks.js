@@ -102,7 +102,7 @@ function paintHover(view, context, event) {
 }
 
 function paintTrail(view, context, trail, now) {
-  context.lineCap = "round";
+  context.lineCap = "butt"; // round ends would overlap and show as beads
   for (let i = 1; i < trail.length; i += 1) {
     const fresh = 1 - (now - trail[i].at) / TRAIL_MS;
     context.beginPath();
