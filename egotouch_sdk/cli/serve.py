@@ -26,6 +26,7 @@ from egotouch_sdk.errors import ConfigError
 
 if TYPE_CHECKING:
     from egotouch_sdk.server import EventServer, Settings
+    from egotouch_sdk.server.debug_video import DebugVideo
     from egotouch_sdk.server.lan import Lan
     from egotouch_sdk.server.pushing import PushTarget
     from egotouch_sdk.sources import FrameSource, ObservationSource
@@ -63,7 +64,7 @@ def add_server_options(parser: argparse._ActionsContainer) -> None:
     parser.add_argument("--allow-host", action="append", default=[], metavar="NAME", help="another name of the server (repeatable)")
     parser.add_argument("--mdns", action="store_true", help="with --lan: announce the server to apps on the network")
     parser.add_argument("--no-page", action="store_true", help="serve no page, only events")
-    parser.add_argument("--debug-view", action="store_true", help="let clients ask for the landmarks of the hands in view")
+    parser.add_argument("--debug-view", action="store_true", help="show video on the page, and let clients ask for the landmarks of hands")
 
 
 def run(options: argparse.Namespace) -> int:
@@ -82,10 +83,13 @@ async def _serve(
 ) -> bool:
     """Serve; True when Ctrl-C ended it."""
     from egotouch_sdk.server import EventServer
+    from egotouch_sdk.server.debug_video import DebugVideo
     from egotouch_sdk.server.feed import Feed
+    from egotouch_sdk.sources import ObservationSource
 
     stop, interrupted = _stop_on_signals()
-    server = EventServer(_settings(options, lan, engine.config, push))
+    video = DebugVideo() if options.debug_view and not isinstance(source, ObservationSource) else None
+    server = EventServer(_settings(options, lan, engine.config, push, video))
     await server.start()
     feed = Feed(server, source, engine, stall_ms=engine.config.state.stall_ms, repeat=not options.once)
     try:
@@ -130,7 +134,7 @@ def _open(options: argparse.Namespace) -> tuple[FrameSource | ObservationSource,
     return simulator, SimulatorTarget(simulator)
 
 
-def _settings(options: argparse.Namespace, lan: Lan | None, config: Any, push: PushTarget | None) -> Settings:
+def _settings(options: argparse.Namespace, lan: Lan | None, config: Any, push: PushTarget | None, video: DebugVideo | None) -> Settings:
     from egotouch_sdk.server import Settings
     from egotouch_sdk.server.access import OpenAccess, TokenAccess
     from egotouch_sdk.server.door import Door
@@ -138,7 +142,8 @@ def _settings(options: argparse.Namespace, lan: Lan | None, config: Any, push: P
     from egotouch_sdk.server.secret_store import load_token
     from egotouch_sdk.server.welcome import ServerInfo
 
-    features = [name for name, on in ((SIMULATOR, options.source == SIMULATOR), ("landmarks", options.debug_view)) if on]
+    offered = {SIMULATOR: options.source == SIMULATOR, "landmarks": options.debug_view, "debug_video": video is not None}
+    features = [name for name, on in offered.items() if on]
     token = lan.token if lan else load_token(options.token_file) if options.token_file else ""
     access = lan.access(lambda code: _show_code(lan, options.port, code)) if lan else TokenAccess(token) if token else OpenAccess()
     return Settings(
@@ -152,6 +157,7 @@ def _settings(options: argparse.Namespace, lan: Lan | None, config: Any, push: P
         pages=Pages(None if options.no_page else SHIPPED_PAGE),
         source=Path(options.source).name,
         landmarks=options.debug_view,
+        video=video,
         push=push,
     )
 
@@ -176,7 +182,7 @@ def _introduce(options: argparse.Namespace, lan: Lan | None, server: EventServer
     if isinstance(server.settings.access, TokenAccess):
         server.settings.access.offer_code(now_ns())
     if options.debug_view:
-        print("  Landmarks of the hands in view leave this program for clients that ask: --debug-view is on.")
+        print("  Video and landmarks of the hands in view leave this program for clients that ask: --debug-view is on.")
     sys.stdout.flush()
     if options.browser and not options.no_page:
         open_browser(page_url(scheme, hosts[0], server.port) + page)

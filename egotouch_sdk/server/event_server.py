@@ -20,6 +20,7 @@ from egotouch_sdk.server.access import Access, OpenAccess
 from egotouch_sdk.server.client import WRITE_AHEAD_BYTES, Client, hang_up
 from egotouch_sdk.server.close_code import CloseCode
 from egotouch_sdk.server.crowd import Crowd, counted_in
+from egotouch_sdk.server.debug_video import DebugVideo
 from egotouch_sdk.server.door import Door
 from egotouch_sdk.server.http import HttpFront
 from egotouch_sdk.server.hub import EventHub
@@ -54,7 +55,8 @@ class Settings:
     """How a server is reached and by whom.
 
     `port` 0 takes a free one. `tls` is needed on anything but loopback. `token` protects /metrics where `access` asks for one.
-    `source` is its name for people. `landmarks` lets clients ask for the hands in view. `push` takes what clients push.
+    `source` is its name for people. `landmarks` lets clients ask for the hands in view, `video` shows
+    what the camera sees on the page. `push` takes what clients push.
     """
 
     host: str = "127.0.0.1"
@@ -68,6 +70,7 @@ class Settings:
     pages: Pages = field(default_factory=Pages)
     source: str = ""
     landmarks: bool = False
+    video: DebugVideo | None = None
     push: PushTarget | None = None
 
 
@@ -89,7 +92,9 @@ class EventServer:
         self._board = StatusBoard(self.settings.source)
         self._frame_index = 0
         self._crowd = Crowd(CONNECTIONS_PER_CLIENT * self.settings.limits.max_clients)
-        self._front = HttpFront(self.settings.pages, self.settings.door, self.metrics, self._health, self.settings.token)
+        self._front = HttpFront(
+            self.settings.pages, self.settings.door, self.metrics, self._health, self.settings.token, self.settings.video
+        )
 
     async def start(self) -> None:
         """Begin to listen; raises `ConfigError` when the address cannot be had."""

@@ -47,10 +47,19 @@ class ServedSource:
 
 
 class Tap:
-    """An engine that hands on what it makes; once `stopping`, open touches are cancelled with SERVER_STOPPED."""
+    """An engine that hands on what it makes; once `stopping`, open touches are cancelled with SERVER_STOPPED.
 
-    def __init__(self, engine: Engine, hand_on: Callable[[int, FrameResult | None, tuple[TouchEvent, ...]], None]) -> None:
+    `show` gets every item after its events went out.
+    """
+
+    def __init__(
+        self,
+        engine: Engine,
+        hand_on: Callable[[int, FrameResult | None, tuple[TouchEvent, ...]], None],
+        show: Callable[[Any], None] | None = None,
+    ) -> None:
         self.stopping = False
+        self._show = show
         self._engine = engine
         self._hand_on = hand_on
 
@@ -58,6 +67,8 @@ class Tap:
         """Take one frame or observation."""
         result = self._engine.process(item)
         self._hand_on(result.timestamp_ns, result, result.events)
+        if self._show is not None:
+            self._show(item)
         return result
 
     def finish(self, timestamp_ns: int, reason: CancelReason, /) -> tuple[TouchEvent, ...]:
@@ -79,7 +90,8 @@ class Feed:
         self._loop = asyncio.get_running_loop()
         self.ended: asyncio.Future[Exception | None] = self._loop.create_future()
         self._server = server
-        self._tap = Tap(engine, self._hand_on)
+        video = server.settings.video
+        self._tap = Tap(engine, self._hand_on, video.show if video else None)
         self._capture = Capture(
             ServedSource(source, repeat=repeat),  # type: ignore[arg-type]
             self._tap,

@@ -1,12 +1,13 @@
 // The landmarks of the hands in view, in the camera's own picture; the picture itself only where the server runs a debug view.
 
+import { access } from "./access.js";
 import { atMostEvery } from "./frames.js";
 
 const BONES = [[0, 1, 2, 3, 4], [0, 5, 6, 7, 8], [5, 9, 10, 11, 12], [9, 13, 14, 15, 16], [13, 17, 18, 19, 20], [0, 17]];
 const COLOURS = { LEFT: "#f0b429", RIGHT: "#5ac8fa", UNSPECIFIED: "#93a4b8" };
 const DEBUG_VIDEO = "debug_video";
 const VIDEO_PATH = "debug.jpg";
-const VIDEO_EVERY_MS = 100;
+const VIDEO_EVERY_MS = 60;
 const PAINT_EVERY_MS = 40;
 
 /** Show hands (and debug video, when the server announces that feature) as they come in. */
@@ -33,12 +34,17 @@ export function showHands(connection, root = document) {
 }
 
 /** One JPEG after the other: a slow page asks for fewer, and nothing queues. */
-function playVideo(video, connection) {
-  const next = () => {
-    if (connection.state === "live") video.src = `${VIDEO_PATH}?at=${Math.round(performance.now())}`;
-  };
-  video.onload = video.onerror = () => setTimeout(next, VIDEO_EVERY_MS);
-  next();
+async function playVideo(video, connection) {
+  while (connection.state === "live") {
+    const { token } = access();
+    const response = await fetch(VIDEO_PATH, { headers: token ? { Authorization: `Bearer ${token}` } : {} }).catch(() => null);
+    if (response?.status === 200) {
+      const old = video.src;
+      video.src = URL.createObjectURL(await response.blob());
+      URL.revokeObjectURL(old);
+    }
+    await new Promise((resolve) => setTimeout(resolve, VIDEO_EVERY_MS));
+  }
 }
 
 function paint(canvas, { width_px, height_px, hands }) {
