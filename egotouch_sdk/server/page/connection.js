@@ -68,11 +68,14 @@ export class Connection extends EventTarget {
     return this.#welcome;
   }
 
-  /** Connect, or connect again at once. */
+  /** Connect, or connect again at once; what touches on this page is cancelled. */
   start() {
     clearTimeout(this.#retryTimer);
     this.#retryTimer = 0;
-    this.#socket?.close();
+    const old = this.#socket;
+    this.#socket = null;
+    old?.close();
+    this.#end();
     this.#open();
   }
 

@@ -26,6 +26,7 @@ export class Plot {
     const series = this.#series.get(key) ?? { colour, points: [] };
     series.points.push({ at, value });
     this.#series.set(key, series);
+    this.#expire(series, at);
   }
 
   /** Forget all values. */
@@ -42,7 +43,7 @@ export class Plot {
   draw(now) {
     const { windowMs, top, unit } = this.#options;
     for (const [key, series] of this.#series) {
-      while (series.points.length && now - series.points[0].at > windowMs) series.points.shift();
+      this.#expire(series, now);
       if (!series.points.length) this.#series.delete(key);
     }
     const context = this.#canvas.getContext("2d");
@@ -58,6 +59,10 @@ export class Plot {
     context.clip();
     for (const series of this.#series.values()) this.#line(context, series, x, y);
     context.restore();
+  }
+
+  #expire({ points }, now) {
+    while (points.length && now - points[0].at > this.#options.windowMs) points.shift();
   }
 
   #line(context, { colour, points }, x, y) {

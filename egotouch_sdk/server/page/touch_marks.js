@@ -19,6 +19,7 @@ export class TouchMarks {
   /** Take one event at `now` (milliseconds of this page's clock). */
   apply(event, now) {
     const kind = FLASHES[event.type];
+    this.#expire(now); // here and not only where it is drawn: a hidden page draws nothing, yet must not grow
     if (kind) this.#flashes.push({ event, kind, at: now });
     if (event.type === "HOVER_EXIT") {
       this.#pointers.delete(event.pointer_id);
@@ -38,9 +39,8 @@ export class TouchMarks {
   /** Draw what belongs on this side of this host's limb. */
   paint(view, context, now) {
     const here = (event) => hostOf(event) === view.host && onPalmSide(event.surface) === (view.side === "palm");
-    this.#flashes = this.#flashes.filter(({ at }) => now - at < FLASH_MS);
+    this.#expire(now);
     for (const pointer of this.#pointers.values()) {
-      pointer.trail = pointer.trail.filter(({ at }) => now - at < TRAIL_MS);
       if (!here(pointer.event)) continue;
       paintTrail(view, context, pointer.trail.filter(({ event }) => here(event)), now);
       paintFinger(view, context, pointer.event, pointer.touching ? 0.34 : 0.16);
@@ -48,6 +48,14 @@ export class TouchMarks {
       else paintHover(view, context, pointer.event);
     }
     for (const flash of this.#flashes) if (here(flash.event)) paintFlash(view, context, flash, (now - flash.at) / FLASH_MS);
+  }
+
+  #expire(now) {
+    const dropOld = (list, ageMs) => {
+      while (list.length && now - list[0].at > ageMs) list.shift();
+    };
+    dropOld(this.#flashes, FLASH_MS);
+    for (const { trail } of this.#pointers.values()) dropOld(trail, TRAIL_MS);
   }
 }
 
