@@ -112,7 +112,7 @@ export class Connection extends EventTarget {
     try {
       message = readMessage(text);
     } catch {
-      this.#socket.close(1003, "not a message of egotouch.v1.json");
+      this.#abandon("The server sent something that is no message.");
       return;
     }
     this.#heard = now;
@@ -127,7 +127,6 @@ export class Connection extends EventTarget {
   #welcomed(welcome) {
     if (this.#resume && this.#resume.epoch !== welcome.epoch) this.clock.reset();
     this.#welcome = welcome;
-    this.#attempt = 0;
     this.#probes = 0;
     if (welcome.token) this.#options.keepToken(welcome.token);
     this.#change("live", "Connected.");
@@ -196,6 +195,7 @@ export class Connection extends EventTarget {
   #lost(why) {
     this.#end();
     this.counts.reconnects += 1;
+    if (performance.now() - this.#opened > BACKOFF_MAX_MS) this.#attempt = 0; // it held for a while
     const waitMs = Math.random() * Math.min(BACKOFF_MAX_MS, BACKOFF_FIRST_MS * 2 ** this.#attempt); // full jitter
     this.#attempt += 1;
     this.#change("disconnected", `${why} Trying again …`);

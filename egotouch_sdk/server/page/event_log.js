@@ -51,7 +51,7 @@ export class EventLog {
   #row(event, local) {
     this.#first ??= event.timestamp_ms;
     const row = document.createElement("li");
-    row.className = `group-${GROUP_OF[event.type]}${isStream(event.type) ? ` group-${STREAM}` : ""}${local || event.late ? " apart" : ""}`;
+    row.className = `group-${GROUP_OF[event.type] ?? "touch"}${isStream(event.type) ? ` group-${STREAM}` : ""}${local || event.late ? " apart" : ""}`;
     row.append(
       cell("when", `${((event.timestamp_ms - this.#first) / 1000).toFixed(2)} s`),
       cell("what", words(event.type)),

@@ -57,7 +57,7 @@ function paint(canvas, { width_px, height_px, hands }) {
   context.lineCap = context.lineJoin = "round";
   for (const { handedness, landmarks_px } of hands) {
     const at = (joint) => [landmarks_px[3 * joint] * scale, landmarks_px[3 * joint + 1] * scale];
-    context.strokeStyle = context.fillStyle = COLOURS[handedness];
+    context.strokeStyle = context.fillStyle = COLOURS[handedness] ?? COLOURS.UNSPECIFIED;
     for (const bone of BONES) {
       context.beginPath();
       for (const joint of bone) context.lineTo(...at(joint));
