@@ -21,9 +21,9 @@ def skip(reason: str) -> None:
     pytest.skip(reason)
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def browser() -> Iterator[Browser]:
-    """A headless Chromium."""
+    """A headless Chromium; not for the whole session, as Playwright's event loop would be in the way of other tests' loops."""
     try:
         from playwright.sync_api import sync_playwright
     except ModuleNotFoundError:
