@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from egotouch_sdk.server.subscription import Subscription
@@ -17,8 +17,8 @@ _NEVER_REPLAYED = _AFTERWARDS | {EventType.LONG_CLICK}
 _DRAG = frozenset({EventType.DRAG_START, EventType.DRAG, EventType.DRAG_END})
 _FORCE = frozenset({EventType.FORCE_ENTER, EventType.FORCE_CHANGE, EventType.FORCE_EXIT})
 
-#: Events that belong together, and whether they are late.
-Run = tuple[bool, tuple[TouchEvent, ...]]
+#: What a client gets of one frame, and whether it is late.
+Shown = tuple[bool, tuple[TouchEvent, ...]]
 
 
 @dataclass(slots=True)
@@ -38,26 +38,28 @@ class PointerView:
     - A pointer opens with HOVER_ENTER at its first event that is wanted, and closes with its HOVER_EXIT.
     - A contact is sent from its DOWN or not at all; drags and presses likewise. What was begun is always ended.
     - The first stale edge of a contact cancels it (DISCONNECTED) and the rest of it is left out; stale clicks are left out.
-    - Clients that want late edges get them all instead, marked; a contact that began late stays so to its end.
+    - Clients that want late edges get them all instead, marked. A frame is late as a whole, since it is sent as a whole, and a contact
+      that began late stays so to its end.
     """
 
     def __init__(self, subscription: Subscription, held: dict[int, Pointer] | None = None) -> None:
         self.subscription = subscription
         self._pointers = held or {}
 
-    def apply(self, events: Iterable[TouchEvent], *, stale: bool = False, replay: bool = False) -> tuple[Run, ...]:
-        """What of one frame's events to send, in order, cut where late and live ones meet."""
-        runs: list[tuple[bool, list[TouchEvent]]] = []
+    def apply(self, events: Sequence[TouchEvent], *, stale: bool = False, replay: bool = False) -> Shown:
+        """What of one frame's events to send, in order."""
+        late = self.subscription.late_edges and (stale or any(self._is_late(event, replay) for event in events))
+        shown: list[TouchEvent] = []
         for event in events:
-            too_old = stale or (replay and event.type in _NEVER_REPLAYED)
-            for late, shown in self._show(event, too_old):
-                if not runs or runs[-1][0] is not late:
-                    runs.append((late, []))
-                runs[-1][1].append(shown)
-        return tuple((late, tuple(run)) for late, run in runs)
+            shown += self._show(event, stale or (replay and event.type in _NEVER_REPLAYED), late)
+        return late, tuple(shown)
 
-    def _show(self, event: TouchEvent, stale: bool) -> Iterator[tuple[bool, TouchEvent]]:
-        late = stale and self.subscription.late_edges
+    def _is_late(self, event: TouchEvent, replay: bool) -> bool:
+        pointer = self._pointers.get(event.pointer_id)
+        began_late = pointer is not None and pointer.is_late and event.contact_id == pointer.contact_id
+        return began_late or (replay and event.type in _NEVER_REPLAYED)
+
+    def _show(self, event: TouchEvent, stale: bool, late: bool) -> Iterator[TouchEvent]:
         pointer = self._pointers.get(event.pointer_id)
         if pointer is None:
             if event.type not in _OPENS_POINTER or not self.subscription.wants_place(event):
@@ -65,24 +67,24 @@ class PointerView:
             if event.type is EventType.DOWN and stale and not late:
                 return
             pointer = self._pointers[event.pointer_id] = Pointer()
-            yield late, _entering(event)
+            yield _entering(event)
             if event.type is not EventType.DOWN:
                 return
         if event.type.is_hover:
-            yield from self._show_hover(event, late)
+            yield from self._show_hover(event)
         elif event.type is EventType.DOWN:
             yield from self._show_down(pointer, event, stale, late)
         elif event.contact_id == pointer.contact_id:
             yield from self._show_contact(pointer, event, stale, late)
 
-    def _show_hover(self, event: TouchEvent, late: bool) -> Iterator[tuple[bool, TouchEvent]]:
+    def _show_hover(self, event: TouchEvent) -> Iterator[TouchEvent]:
         if event.type is EventType.HOVER_EXIT:
             del self._pointers[event.pointer_id]
-            yield late, event
+            yield event
         elif self.subscription.wants_type(event.type) and self.subscription.wants_place(event):
-            yield late, event
+            yield event
 
-    def _show_down(self, pointer: Pointer, event: TouchEvent, stale: bool, late: bool) -> Iterator[tuple[bool, TouchEvent]]:
+    def _show_down(self, pointer: Pointer, event: TouchEvent, stale: bool, late: bool) -> Iterator[TouchEvent]:
         wanted = self.subscription.wants_type(event.type) and self.subscription.wants_place(event)
         if not wanted or (stale and not late):
             pointer.contact_id, pointer.is_down = 0, False
@@ -90,20 +92,19 @@ class PointerView:
         pointer.contact_id, pointer.is_down = event.contact_id, True
         pointer.is_dragging = pointer.is_pressing = False
         pointer.is_late = late
-        yield late, event
+        yield event
 
-    def _show_contact(self, pointer: Pointer, event: TouchEvent, stale: bool, late: bool) -> Iterator[tuple[bool, TouchEvent]]:
-        late = late or pointer.is_late
+    def _show_contact(self, pointer: Pointer, event: TouchEvent, stale: bool, late: bool) -> Iterator[TouchEvent]:
         if pointer.is_down == (event.type in _AFTERWARDS):
             return
         if stale and not late and event.type.is_edge:
             if pointer.is_down:
-                yield from ((False, ending) for ending in _cancelling(pointer, event))
+                yield from _cancelling(pointer, event)
             pointer.contact_id, pointer.is_down = 0, False
             return
         if self._belongs(pointer, event):
             pointer.is_down = pointer.is_down and event.type not in _ENDS_CONTACT
-            yield late, event
+            yield event
 
     def _belongs(self, pointer: Pointer, event: TouchEvent) -> bool:
         """Whether the client has seen the beginning of what the event goes on with; notes beginnings and ends."""

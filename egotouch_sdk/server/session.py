@@ -14,7 +14,7 @@ from egotouch_sdk.server.close_code import Close, CloseCode
 from egotouch_sdk.server.journal import Journal
 from egotouch_sdk.server.limits import MILLISECOND_NS, SECOND_NS, Limits
 from egotouch_sdk.server.outbox import Outbox
-from egotouch_sdk.server.pointer_view import Pointer, PointerView, Run
+from egotouch_sdk.server.pointer_view import Pointer, PointerView, Shown
 from egotouch_sdk.server.pushing import PushTarget
 from egotouch_sdk.server.rate import TokenBucket
 from egotouch_sdk.server.subprotocol import Subprotocol
@@ -71,7 +71,6 @@ class Session:
         self._view = PointerView(self.subscription)
         self._outbox = Outbox(self._limits)
         self._control: deque[pb.ServerMessage] = deque()
-        self._runs: deque[tuple[Batch, Run]] = deque()
         self._offset = 0
         self._hello_due_ns = now_ns + self._limits.hello_timeout_ns
         self._sent_ns = now_ns
@@ -86,7 +85,7 @@ class Session:
     @property
     def has_waiting(self) -> bool:
         """True when something waits to be sent."""
-        return bool(self._control or self._runs or len(self._outbox))
+        return bool(self._control or len(self._outbox))
 
     # ---------------------------------------------------------------------------------------------------------- client to server
 
@@ -220,15 +219,17 @@ class Session:
             return None
         if self._control:
             return self._finish(self._control.popleft(), now_ns)
-        while not self._runs:
-            if not len(self._outbox) or self._is_holding(now_ns):
-                return None
-            self._take_in(self._outbox.pop(), now_ns)
-        batch, run = self._runs.popleft()
-        if not self._runs:
+        while len(self._outbox) and not self._is_holding(now_ns):
+            batch = self._outbox.pop()
+            stale = now_ns - batch.published_ns > self._limits.input_ttl_ns
+            shown = self._view.apply(batch.events, stale=stale, replay=batch.replay)
             self._offset = batch.offset
-        self._sent_ns = now_ns
-        return self._encode(batch, run, now_ns)
+            if shown[1]:
+                self._sent_ns = now_ns
+                if self.subscription.max_rate_hz:
+                    self._next_stream_ns = now_ns + ceil(SECOND_NS / self.subscription.max_rate_hz)
+                return self._encode(batch, shown, now_ns)
+        return None
 
     def tick(self, now_ns: int) -> None:
         """Let time pass: a missing Hello, a client that stopped reading, or a heartbeat that is due."""
@@ -253,7 +254,7 @@ class Session:
         """True when all that waits is held back by the client's own rate."""
         head = self._outbox.head
         only_moves = head is not None and not head.has_edges and len(self._outbox) == 1
-        return only_moves and not self._control and not self._runs and now_ns < self._next_stream_ns
+        return only_moves and not self._control and now_ns < self._next_stream_ns
 
     @property
     def _silence_ns(self) -> int:
@@ -265,16 +266,6 @@ class Session:
     def _warn(self, code: str, text: str) -> None:
         self._control.append(pb.ServerMessage(warning=pb.Warning(code=code, message=text)))
 
-    def _take_in(self, batch: Batch, now_ns: int) -> None:
-        """Turn a batch into what this client sees of it; a part of it is sent with the offset before it, the last with its own."""
-        stale = now_ns - batch.published_ns > self._limits.input_ttl_ns
-        runs = self._view.apply(batch.events, stale=stale, replay=batch.replay)
-        self._runs.extend((batch, run) for run in runs)
-        if not runs:
-            self._offset = batch.offset
-        elif self.subscription.max_rate_hz:
-            self._next_stream_ns = now_ns + ceil(SECOND_NS / self.subscription.max_rate_hz)
-
     def _finish(self, message: pb.ServerMessage, now_ns: int) -> bytes | str:
         message.offset = self._offset
         if message.HasField("clock_reply"):
@@ -284,8 +275,8 @@ class Session:
         self._sent_ns = now_ns
         return self._subprotocol.encode(message)
 
-    def _encode(self, batch: Batch, run: Run, now_ns: int) -> bytes | str:
-        late, events = run
+    def _encode(self, batch: Batch, shown: Shown, now_ns: int) -> bytes | str:
+        late, events = shown
         key = (self._subprotocol.name, self.subscription.latest_only, late, self._offset, tuple(map(id, events)))
         shared = batch.encoded.get(key)
         if shared is not None and now_ns - batch.published_ns <= SHARED_NS:
