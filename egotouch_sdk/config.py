@@ -219,7 +219,8 @@ class GestureConfig(_Section):
     tap_timeout_ms: float = Field(
         default=100.0,
         ge=0,
-        description="A deep press must last this long to bring the long click forward; a hard tap is shorter (Android, TAP_TIMEOUT).",
+        description="A deep press must last this long to bring the long click forward; a finger that was lost while touching must hover "
+        "so long to click again (Android, TAP_TIMEOUT).",
     )
     deep_press_n: float = Field(
         default=2.5, gt=0, description="A press at least this hard brings the long click forward, like Android's CLASSIFICATION_DEEP_PRESS."
@@ -269,7 +270,7 @@ class HostConfig(_Section):
     angle_beta_hz_s_rad: float = Field(default=0.5, ge=0, description="Hertz of cutoff gained per rad/s (our choice).")
     gap_ms: float = Field(default=120.0, gt=0, description="A finger unseen for longer is not smoothed with its past (our choice).")
     jump_mm: float = Field(
-        default=40.0, gt=0, description="A finger that moves this far in one frame is not smoothed with its past, so that jumps stay visible."
+        default=40.0, gt=0, description="A finger that moves this far in one frame is not smoothed with its past: jumps stay visible."
     )
 
 

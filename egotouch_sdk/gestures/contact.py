@@ -24,14 +24,16 @@ class GestureStates:
 
 
 class Contact:
-    """A touch from DOWN to UP or CANCEL. `follows_click` says that it begins in time and place for a double click."""
+    """A touch from DOWN to UP or CANCEL. `follows_click` says that it begins in time and place for a double click, `was_found` that
+    nobody saw the finger land."""
 
-    def __init__(self, config: GestureConfig, down: TouchEvent, *, follows_click: bool) -> None:
+    def __init__(self, config: GestureConfig, down: TouchEvent, *, follows_click: bool, was_found: bool) -> None:
         self.down = down
         self.states = GestureStates()
         self.was_long = False
         self._config = config
         self._follows_click = follows_click
+        self._was_found = was_found
         self._velocity = VelocityTracker(config)
         self._told_force_n = 0.0
         self._deep_since_ns: int | None = None
@@ -89,10 +91,10 @@ class Contact:
             return PressInput.LIFTED_AGAIN if self._follows_click else PressInput.LIFTED
         is_deep = self._is_deep(event)
         if event.type is EventType.DOWN:
-            return PressInput.LANDED
+            return PressInput.FOUND if self._was_found else PressInput.LANDED
         if way_mm > self._config.touch_slop_mm:
             return PressInput.LEFT_SLOP
-        is_held = _is_due(self.down.timestamp_ns, event.timestamp_ns, self._config.long_press_timeout_ms)
+        is_held = is_due(self.down.timestamp_ns, event.timestamp_ns, self._config.long_press_timeout_ms)
         return PressInput.DUE if is_held or is_deep else PressInput.STAYED
 
     def _is_deep(self, event: TouchEvent) -> bool:
@@ -102,8 +104,9 @@ class Contact:
             return False
         if self._deep_since_ns is None:
             self._deep_since_ns = event.timestamp_ns
-        return _is_due(self._deep_since_ns, event.timestamp_ns, self._config.tap_timeout_ms)
+        return is_due(self._deep_since_ns, event.timestamp_ns, self._config.tap_timeout_ms)
 
 
-def _is_due(since_ns: int, now_ns: int, timeout_ms: float) -> bool:
+def is_due(since_ns: int, now_ns: int, timeout_ms: float) -> bool:
+    """True when `timeout_ms` have passed, but for rounding."""
     return now_ns - since_ns >= timeout_ms * 1e6 - ROUNDING_NS

@@ -11,6 +11,8 @@ Timing cases. Times count from the DOWN, in capture time; numbers are the defaul
     pressed at 2.5 N or more for 100 ms    long_click, however early: a deep press
     ... weaker in one of those frames      the 100 ms begin anew
     seen more than 16 mm off at the lift   up, no click              it slid away between two frames
+    lost while touching, found touching    down, up                  no click or long_click: within 100 ms of coming back it did not land
+    ... after 100 ms of hovering           down, up, click
 
   double clicks: both of the same finger, DOWNs within 16 mm, on whatever surface and pointer
     second DOWN 40 to 300 ms after the UP  ... down, up, click (count 2), double_click
@@ -57,6 +59,7 @@ from egotouch_sdk.config import GestureConfig
 from egotouch_sdk.errors import GrammarError
 from egotouch_sdk.gestures.clicks import ClickMemory
 from egotouch_sdk.gestures.contact import Contact, GestureStates
+from egotouch_sdk.gestures.landing import LandingMemory
 from egotouch_sdk.gestures.table import CLOSING
 from egotouch_sdk.touch_event import EventType, TouchEvent
 
@@ -70,6 +73,7 @@ class GestureRecognizer:
     def __init__(self, config: GestureConfig) -> None:
         self._config = config
         self._clicks = ClickMemory(config)
+        self._landings = LandingMemory(config)
         self._contacts: dict[int, Contact] = {}
 
     def feed(self, events: Iterable[TouchEvent]) -> tuple[TouchEvent, ...]:
@@ -89,6 +93,7 @@ class GestureRecognizer:
         return contact.states if contact else GestureStates()
 
     def _feed(self, event: TouchEvent) -> Iterator[TouchEvent]:
+        self._landings.note(event)
         if event.type.is_hover:
             yield event
             return
@@ -106,7 +111,8 @@ class GestureRecognizer:
 
     def _contact_of(self, event: TouchEvent) -> Contact:
         if event.type is EventType.DOWN:
-            self._contacts[event.pointer_id] = Contact(self._config, event, follows_click=self._clicks.follows(event))
+            follows_click, was_found = self._clicks.follows(event), self._landings.was_found(event)
+            self._contacts[event.pointer_id] = Contact(self._config, event, follows_click=follows_click, was_found=was_found)
         if event.pointer_id not in self._contacts:
             raise GrammarError(f"{event.type} of pointer {event.pointer_id} comes without a down", hint="Feed every raw event, in order")
         return self._contacts[event.pointer_id]

@@ -17,13 +17,14 @@ class PressState(StrEnum):
     NONE = "none"
     HELD = "held"
     HELD_LONG = "held_long"
-    MOVED = "moved"
+    SPENT = "spent"
 
 
 class PressInput(StrEnum):
     """What one frame of a contact means for clicks."""
 
     LANDED = "landed"  # the DOWN
+    FOUND = "found"  # the DOWN of a finger that was lost while it touched, and did not hover long enough since to land anew
     STAYED = "stayed"  # still there, nothing new
     DUE = "due"  # still there, and held for the long press timeout, or pressed deep for the tap timeout
     LEFT_SLOP = "left_slop"  # farther from the DOWN than the slop
@@ -73,28 +74,29 @@ _CLICK, _CLICKS = (EventType.CLICK,), (EventType.CLICK, EventType.DOUBLE_CLICK)
 
 PRESS: dict[tuple[PressState, PressInput], tuple[PressState, tuple[EventType, ...]]] = {
     (_P.NONE, _PI.LANDED): (_P.HELD, ()),
+    (_P.NONE, _PI.FOUND): (_P.SPENT, ()),
     (_P.HELD, _PI.STAYED): (_P.HELD, ()),
     (_P.HELD, _PI.DUE): (_P.HELD_LONG, (EventType.LONG_CLICK,)),
-    (_P.HELD, _PI.LEFT_SLOP): (_P.MOVED, ()),
+    (_P.HELD, _PI.LEFT_SLOP): (_P.SPENT, ()),
     (_P.HELD, _PI.LIFTED): (_P.NONE, _CLICK),
     (_P.HELD, _PI.LIFTED_AGAIN): (_P.NONE, _CLICKS),
     (_P.HELD, _PI.LIFTED_AWAY): (_P.NONE, ()),
     (_P.HELD, _PI.CANCELLED): (_P.NONE, ()),
     (_P.HELD_LONG, _PI.STAYED): (_P.HELD_LONG, ()),
     (_P.HELD_LONG, _PI.DUE): (_P.HELD_LONG, ()),
-    (_P.HELD_LONG, _PI.LEFT_SLOP): (_P.MOVED, ()),
+    (_P.HELD_LONG, _PI.LEFT_SLOP): (_P.SPENT, ()),
     # As on Android a click follows the long click, unless a listener consumed that. It is never half of a double click.
     (_P.HELD_LONG, _PI.LIFTED): (_P.NONE, _CLICK),
     (_P.HELD_LONG, _PI.LIFTED_AGAIN): (_P.NONE, _CLICK),
     (_P.HELD_LONG, _PI.LIFTED_AWAY): (_P.NONE, ()),
     (_P.HELD_LONG, _PI.CANCELLED): (_P.NONE, ()),
-    (_P.MOVED, _PI.STAYED): (_P.MOVED, ()),
-    (_P.MOVED, _PI.DUE): (_P.MOVED, ()),
-    (_P.MOVED, _PI.LEFT_SLOP): (_P.MOVED, ()),
-    (_P.MOVED, _PI.LIFTED): (_P.NONE, ()),
-    (_P.MOVED, _PI.LIFTED_AGAIN): (_P.NONE, ()),
-    (_P.MOVED, _PI.LIFTED_AWAY): (_P.NONE, ()),
-    (_P.MOVED, _PI.CANCELLED): (_P.NONE, ()),
+    (_P.SPENT, _PI.STAYED): (_P.SPENT, ()),
+    (_P.SPENT, _PI.DUE): (_P.SPENT, ()),
+    (_P.SPENT, _PI.LEFT_SLOP): (_P.SPENT, ()),
+    (_P.SPENT, _PI.LIFTED): (_P.NONE, ()),
+    (_P.SPENT, _PI.LIFTED_AGAIN): (_P.NONE, ()),
+    (_P.SPENT, _PI.LIFTED_AWAY): (_P.NONE, ()),
+    (_P.SPENT, _PI.CANCELLED): (_P.NONE, ()),
 }
 
 _D, _DI = DragState, DragInput

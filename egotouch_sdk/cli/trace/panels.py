@@ -140,7 +140,7 @@ def _state_style(touching: bool) -> str:
 def _gesture(pointer: PointerSnapshot) -> str:
     states = pointer.gestures
     words = [
-        "" if states.press in (PressState.NONE, PressState.MOVED) else states.press.value.replace("_", " "),
+        "" if states.press in (PressState.NONE, PressState.SPENT) else states.press.value.replace("_", " "),
         states.drag.value if states.drag is DragState.DRAGGING else "",
         "hard" if states.force is ForceState.HARD else "",
     ]

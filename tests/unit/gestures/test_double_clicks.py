@@ -128,10 +128,12 @@ def test_a_cancel_between_two_clicks_parts_them() -> None:
     finger.hover(4)
     finger.touch_down()
     finger.vanish(3)
-    finger.hover(1)
+    finger.hover(10)
     finger.tap()
     finger.skip(HOVER)
-    finger.expect(DOWN, CANCEL, EXIT, ENTER, DOWN, MOVE, MOVE, UP)
+    finger.expect(DOWN, CANCEL, EXIT, ENTER)
+    finger.skip(HOVER)
+    finger.expect(DOWN, MOVE, MOVE, UP)
     assert finger.expect(CLICK).click_count == 1
     finger.expect_nothing_else()
 

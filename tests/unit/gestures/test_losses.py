@@ -9,7 +9,22 @@ import pytest
 from egotouch_sdk.joints import Handedness
 from egotouch_sdk.touch_event import CancelReason
 from tests.support.finger import ScriptedFinger
-from tests.support.gestures import CANCEL, DRAGGED, DRAG_END, DRAG_START, ENTER, EXIT, FORCE_ENTER, FORCE_EXIT, MOVE, pressed
+from tests.support.gestures import (
+    CANCEL,
+    CLICK,
+    DOWN,
+    DRAGGED,
+    DRAG_END,
+    DRAG_START,
+    ENTER,
+    EXIT,
+    FORCE_ENTER,
+    FORCE_EXIT,
+    HOVER,
+    MOVE,
+    UP,
+    pressed,
+)
 
 Loss = Callable[[ScriptedFinger], None]
 
@@ -102,4 +117,26 @@ def test_dropped_frames_change_nothing_but_the_number_of_moves(finger: ScriptedF
     finger.vanish(dropped)
     finger.move(1.0, force_n=2.0)
     finger.expect(MOVE, DRAG_START, FORCE_ENTER, MOVE, DRAGGED)
+    finger.expect_nothing_else()
+
+
+@pytest.mark.parametrize("loss", [lose, swap, change_sides, jump, stall], ids=lambda loss: loss.__name__)
+def test_a_finger_that_is_found_pressing_does_not_click_when_it_lifts(finger: ScriptedFinger, loss: Loss) -> None:
+    pressed(finger)
+    loss(finger)
+    for _ in range(20):
+        finger.move()
+    finger.lift()
+    finger.skip(CANCEL, EXIT, ENTER, DOWN, MOVE)
+    finger.expect(UP)
+    finger.expect_nothing_else()
+
+
+def test_it_clicks_again_once_it_was_seen_to_land(finger: ScriptedFinger) -> None:
+    pressed(finger)
+    lose(finger)
+    finger.hover(4)
+    finger.tap()
+    finger.skip(CANCEL, EXIT, ENTER, HOVER, DOWN, MOVE)
+    finger.expect(UP, CLICK)
     finger.expect_nothing_else()

@@ -23,8 +23,8 @@ def test_the_tables_know_every_input_of_every_state() -> None:
             known = {cause for where, cause in table if where is state}
             missing = set(inputs) - known
             if state is PressState.NONE:
-                assert known == {PressInput.LANDED}
+                assert known == {PressInput.LANDED, PressInput.FOUND}
             elif states is PressState:
-                assert missing == {PressInput.LANDED}
+                assert missing == {PressInput.LANDED, PressInput.FOUND}
             else:
                 assert missing == ({ForceInput.STEADY} if state is ForceState.SOFT else set())
