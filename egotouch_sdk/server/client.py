@@ -16,6 +16,8 @@ from egotouch_sdk.server.session import Session
 
 #: More than this is not handed to the operating system in advance, so that what waits can still be merged and marked late.
 WRITE_AHEAD_BYTES = 16 * 1024
+#: What the kernel may keep besides, sent or not: three seconds of two fingers at 90 Hz.
+KERNEL_BUFFER_BYTES = 64 * 1024
 #: A blocked socket is looked at this often; merging loses nothing in the meantime.
 BLOCKED_POLL_S = 0.01
 #: How long a client may take to answer the close before the connection is cut.
@@ -90,5 +92,6 @@ def _keep_kernel_buffers_small(connection: ServerConnection) -> None:
     sock = connection.transport.get_extra_info("socket")
     if sock is not None and sock.family in {socket.AF_INET, socket.AF_INET6}:
         sock.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        sock.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, KERNEL_BUFFER_BYTES)
         with contextlib.suppress(OSError):
             sock.setsockopt(socket.IPPROTO_TCP, _TCP_NOTSENT_LOWAT, WRITE_AHEAD_BYTES)
