@@ -41,8 +41,8 @@ TICK_S = 0.02
 OPEN_PATIENCE_S = 5.0
 #: Connections, whatever they are up to, for each client that is allowed.
 CONNECTIONS_PER_CLIENT = 4
-#: Pings of the WebSocket layer, which find clients whose network is gone.
-PING_S = 20.0
+#: Pings of the WebSocket layer; a client that is stopped or gone is closed within twice this (1011), whatever the kernels still buffer.
+PING_S = 5.0
 
 # Below this level the WebSocket layer would log whole messages, tokens among them, and a trace for everybody who sends it garbage.
 _socket_log = logging.getLogger("egotouch_sdk.server.websocket")
