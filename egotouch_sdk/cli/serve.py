@@ -17,6 +17,7 @@ from egotouch_sdk.cli.options import (
     add_command,
     add_pipeline_options,
     add_source_options,
+    config_from,
     engine_from,
     open_from,
     port_number,
@@ -34,11 +35,13 @@ if TYPE_CHECKING:
 EXAMPLES = """\
   egotouch serve 0                       the first camera, for programs and pages on this machine
   egotouch serve simulator               no camera: open the page /simulator.html and play the finger
+  egotouch serve client --lan            a headset sends its own camera frames, with or without its hands
   egotouch serve taps.yaml               a script, over and over
   egotouch serve 0 --lan                 headsets on the same network: open the address or scan the code
   egotouch serve clip.mp4 --once         a video, once
 """
 SIMULATOR = "simulator"
+CLIENT = "client"
 DEFAULT_PORT = 8765
 #: What asyncio calls every interface, IPv4 and IPv6.
 ALL_INTERFACES = ""
@@ -74,7 +77,7 @@ def run(options: argparse.Namespace) -> int:
     lan = _prepare_lan(options)
     source, push = _open(options)
     with source:
-        engine = engine_from(options, source)
+        engine = _engine(options, source)
         return EXIT_INTERRUPTED if asyncio.run(_serve(options, lan, source, engine, push)) else 0
 
 
@@ -85,11 +88,14 @@ async def _serve(
     from egotouch_sdk.server import EventServer
     from egotouch_sdk.server.debug_video import DebugVideo
     from egotouch_sdk.server.feed import Feed
+    from egotouch_sdk.server.headset_target import HeadsetTarget
     from egotouch_sdk.sources import ObservationSource
 
     stop, interrupted = _stop_on_signals()
     video = DebugVideo() if options.debug_view and not isinstance(source, ObservationSource) else None
     server = EventServer(_settings(options, lan, engine.config, push, video))
+    if isinstance(push, HeadsetTarget):
+        server.metrics.more.append(push.lines)
     await server.start()
     feed = Feed(server, source, engine, stall_ms=engine.config.state.stall_ms, repeat=not options.once)
     try:
@@ -124,7 +130,14 @@ def _prepare_lan(options: argparse.Namespace) -> Lan | None:
     return Lan.prepare(config_folder(os.environ, Path.home()), options.token_file, options.allow_host)
 
 
-def _open(options: argparse.Namespace) -> tuple[FrameSource | ObservationSource, PushTarget | None]:
+def _open(options: argparse.Namespace) -> tuple[Any, PushTarget | None]:
+    """The source, and what takes what clients push to it."""
+    if options.source == CLIENT:
+        from egotouch_sdk.server.headset_source import HeadsetSource
+        from egotouch_sdk.server.headset_target import HeadsetTarget
+
+        headset = HeadsetSource()
+        return headset, HeadsetTarget(headset)
     if options.source != SIMULATOR:
         return open_from(options), None
     from egotouch_sdk.server.pushing import SimulatorTarget
@@ -132,6 +145,15 @@ def _open(options: argparse.Namespace) -> tuple[FrameSource | ObservationSource,
 
     simulator = LiveSource(options.fps or DEFAULT_FPS)
     return simulator, SimulatorTarget(simulator)
+
+
+def _engine(options: argparse.Namespace, source: Any) -> Any:
+    if options.source != CLIENT:
+        return engine_from(options, source)
+    from egotouch_sdk.pipeline import TouchPipeline
+    from egotouch_sdk.server.headset_source import HeadsetPipeline
+
+    return HeadsetPipeline(TouchPipeline(config_from(options)), source)
 
 
 def _settings(options: argparse.Namespace, lan: Lan | None, config: Any, push: PushTarget | None, video: DebugVideo | None) -> Settings:
@@ -142,7 +164,12 @@ def _settings(options: argparse.Namespace, lan: Lan | None, config: Any, push: P
     from egotouch_sdk.server.secret_store import load_token
     from egotouch_sdk.server.welcome import ServerInfo
 
-    offered = {SIMULATOR: options.source == SIMULATOR, "landmarks": options.debug_view, "debug_video": video is not None}
+    offered = {
+        SIMULATOR: options.source == SIMULATOR,
+        "push_frames": options.source == CLIENT,
+        "landmarks": options.debug_view,
+        "debug_video": video is not None,
+    }
     features = [name for name, on in offered.items() if on]
     token = lan.token if lan else load_token(options.token_file) if options.token_file else ""
     access = lan.access(lambda code: _show_code(lan, options.port, code)) if lan else TokenAccess(token) if token else OpenAccess()

@@ -16,6 +16,8 @@ class Limits:
 
     `max_clients` connections have passed or are still to pass the Hello, which must come within `hello_timeout_ns`.
     A message has at most `max_message_bytes`; `commands_per_s` of them may come per second on average and `command_burst` at once.
+    What a client pushes as the source counts apart: `pushes_per_s` frames, hands or simulated fingers and `push_bytes_per_s`, and up
+    to `push_burst_s` seconds' worth of them at once, as after a hitch of the network.
     The server is silent for `heartbeat_ns` at most, for `active_heartbeat_ns` while something touches: a client that hears nothing
     for 300 ms cancels its contacts.
     An edge that waited longer than `input_ttl_ns` must not act any more.
@@ -30,6 +32,9 @@ class Limits:
     max_message_bytes: int = 1 << 20
     commands_per_s: int = 20
     command_burst: int = 40
+    pushes_per_s: int = 250
+    push_bytes_per_s: int = 16 << 20
+    push_burst_s: int = 2
     heartbeat_ns: int = 2 * SECOND_NS
     active_heartbeat_ns: int = 100 * MILLISECOND_NS
     input_ttl_ns: int = 250 * MILLISECOND_NS

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 
 #: Upper bounds of the latency buckets in seconds.
 BUCKETS_S = (0.0005, 0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0)
@@ -34,7 +34,10 @@ class Histogram:
 
 
 class Metrics:
-    """Counters since the server started; an object of its own, so that two servers in one process do not mix."""
+    """Counters since the server started; an object of its own, so that two servers in one process do not mix.
+
+    `more` gives the lines of what else is measured.
+    """
 
     def __init__(self) -> None:
         self.frames = 0
@@ -45,29 +48,34 @@ class Metrics:
         self.closed: Counter[int] = Counter()
         self.added_latency = Histogram()
         self.capture_latency = Histogram()
+        self.more: list[Callable[[], Iterator[str]]] = []
 
     def text(self) -> str:
         """Everything in Prometheus' text format, version 0.0.4."""
         return "\n".join((*self._lines(), ""))
 
     def _lines(self) -> Iterator[str]:
-        yield from _family("egotouch_frames_total", "counter", "Frames worked through.", [("", self.frames)])
-        yield from _family("egotouch_events_total", "counter", "Events published.", _labelled("type", self.events))
-        yield from _family("egotouch_messages_sent_total", "counter", "Messages sent to clients.", [("", self.messages)])
-        yield from _family("egotouch_batches_merged_total", "counter", "Batches merged for clients that take fewer.", [("", self.merged)])
-        yield from _family("egotouch_clients", "gauge", "Clients that are connected.", [("", self.clients)])
-        yield from _family("egotouch_connections_closed_total", "counter", "Connections closed, by code.", _labelled("code", self.closed))
+        yield from family("egotouch_frames_total", "counter", "Frames worked through.", [("", self.frames)])
+        yield from family("egotouch_events_total", "counter", "Events published.", labelled("type", self.events))
+        yield from family("egotouch_messages_sent_total", "counter", "Messages sent to clients.", [("", self.messages)])
+        yield from family("egotouch_batches_merged_total", "counter", "Batches merged for clients that take fewer.", [("", self.merged)])
+        yield from family("egotouch_clients", "gauge", "Clients that are connected.", [("", self.clients)])
+        yield from family("egotouch_connections_closed_total", "counter", "Connections closed, by code.", labelled("code", self.closed))
         name, text = "egotouch_added_latency_seconds", "From the end of inference to the socket, for each message with events."
         yield from (f"# HELP {name} {text}", f"# TYPE {name} histogram", *self.added_latency.lines(name))
         name, text = "egotouch_capture_latency_seconds", "From capture to the end of inference, for each frame with events."
         yield from (f"# HELP {name} {text}", f"# TYPE {name} histogram", *self.capture_latency.lines(name))
+        for lines in self.more:
+            yield from lines()
 
 
-def _labelled(label: str, counts: Counter[str] | Counter[int]) -> list[tuple[str, int]]:
+def labelled(label: str, counts: Mapping[str, int] | Mapping[int, int]) -> list[tuple[str, int]]:
+    """One sample for each of the label's values."""
     return [(f'{{{label}="{value}"}}', count) for value, count in sorted(counts.items(), key=str)]
 
 
-def _family(name: str, kind: str, text: str, samples: list[tuple[str, int]]) -> Iterator[str]:
+def family(name: str, kind: str, text: str, samples: list[tuple[str, int]]) -> Iterator[str]:
+    """A metric with its help and its samples."""
     yield f"# HELP {name} {text}"
     yield f"# TYPE {name} {kind}"
     yield from (f"{name}{labels} {value}" for labels, value in samples)

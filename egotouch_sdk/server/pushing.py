@@ -20,8 +20,8 @@ class PushTarget(Protocol):
         """The bodies of a ClientMessage that it takes: "frame", "hands", "simulated"."""
 
     @abstractmethod
-    def take(self, client: object, pushed: Pushed) -> None:
-        """Take what `client` pushed; raises `ProtocolError` for values that make no sense, which closes its connection."""
+    def take(self, client: object, pushed: Pushed, now_ns: int) -> tuple[pb.Warning, ...]:
+        """Take what `client` pushed, and say what it should know; `ProtocolError` for values that make no sense closes its connection."""
 
     @abstractmethod
     def leave(self, client: object) -> None:
@@ -36,10 +36,12 @@ class SimulatorTarget:
     def __init__(self, source: LiveSource) -> None:
         self._source = source
 
-    def take(self, client: object, pushed: Pushed) -> None:
+    def take(self, client: object, pushed: Pushed, now_ns: int) -> tuple[pb.Warning, ...]:
         """All fingers that one page plays now."""
+        del now_ns
         if isinstance(pushed, pb.SimulatedPointers):
             self._source.play(client, pushed)
+        return ()
 
     def leave(self, client: object) -> None:
         """The page has gone; what it touched is cancelled."""

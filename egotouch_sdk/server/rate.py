@@ -14,11 +14,11 @@ class TokenBucket:
         self._level = float(burst)
         self._time_ns = now_ns
 
-    def take(self, now_ns: int) -> bool:
-        """True when one more may happen now."""
+    def take(self, now_ns: int, amount: int = 1) -> bool:
+        """True when one more may happen now, or `amount` of them."""
         self._level = min(self._burst, self._level + (now_ns - self._time_ns) * self._per_s / SECOND_NS)
         self._time_ns = now_ns
-        if self._level < 1:
+        if self._level < amount:
             return False
-        self._level -= 1
+        self._level -= amount
         return True

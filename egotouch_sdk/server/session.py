@@ -68,6 +68,9 @@ class Session:
         self._info = info or ServerInfo()
         self._push = push
         self._commands = TokenBucket(self._limits.commands_per_s, self._limits.command_burst, now_ns)
+        burst_s = self._limits.push_burst_s
+        self._pushes = TokenBucket(self._limits.pushes_per_s, self._limits.pushes_per_s * burst_s, now_ns)
+        self._push_bytes = TokenBucket(self._limits.push_bytes_per_s, self._limits.push_bytes_per_s * burst_s, now_ns)
         self._view = PointerView(self.subscription)
         self._outbox = Outbox(self._limits)
         self._control: deque[pb.ServerMessage] = deque()
@@ -181,7 +184,11 @@ class Session:
     def _on_push(self, message: pb.ClientMessage, now_ns: int) -> None:
         kind = message.WhichOneof("body")
         if self._push is not None and kind is not None and kind in self._push.kinds:
-            self._push.take(self, getattr(message, kind))
+            if self._pushes.take(now_ns) and self._push_bytes.take(now_ns, message.ByteSize()):
+                warnings = self._push.take(self, getattr(message, kind), now_ns)
+                self._control.extend(pb.ServerMessage(warning=warning) for warning in warnings)
+            else:
+                self.end(CloseCode.TOO_MANY_COMMANDS, "more is pushed than this server takes")
         elif self._commands.take(now_ns):
             self._warn("not_a_source", "this server's source does not take what this client pushes")
         else:

@@ -507,8 +507,9 @@ class PushedFrames:
     def __init__(self) -> None:
         self.frames: list[object] = []
 
-    def take(self, client: object, pushed: object) -> None:
+    def take(self, client: object, pushed: object, now_ns: int) -> tuple[pb.Warning, ...]:
         self.frames.append(pushed)
+        return ()
 
     def leave(self, client: object) -> None:
         self.frames.clear()
