@@ -21,9 +21,9 @@ def print_json(value: Any) -> None:
 
 
 def event_line(event: TouchEvent) -> str:
-    """One event for people: time, what, which finger, how sure, where in the image, and what matters to its kind."""
+    """One event for people: time, what, which finger, where on which skin, how sure, and what matters to its kind."""
     words = f"{event.timestamp_ns / 1e9:9.3f} s  {event.type.value:<12}  {event.hand.value:<5} {event.finger.value:<6}"
-    place = f"p {event.touch_probability:.2f}  at ({event.image_x:.2f}, {event.image_y:.2f})"
+    place = f"{event.surface.value:<13} ({event.x_mm:4.0f}, {event.y_mm:4.0f}) mm  p {event.touch_probability:.2f}"
     reason = f"  {event.reason.value}" if event.reason else ""
     return f"{words}  {place}{_detail(event)}{reason}"
 
