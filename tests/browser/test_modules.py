@@ -10,25 +10,18 @@ import pytest
 if TYPE_CHECKING:
     from playwright.sync_api import Browser
 
-    from tests.support.browser import PlayedPage, ServerProcess
+    from tests.support.browser import PlayedPage
 
 
 @pytest.fixture(scope="module")
-def shared_server(browser: Browser) -> Iterator[ServerProcess]:
-    from tests.support.browser import ServerProcess
+def page(browser: Browser) -> Iterator[PlayedPage]:
+    from tests.support.browser import ServerProcess, open_page
 
     server = ServerProcess()
     server.start()
-    yield server
-    server.kill()
-
-
-@pytest.fixture
-def page(browser: Browser, shared_server: ServerProcess) -> Iterator[PlayedPage]:
-    from tests.support.browser import open_page
-
-    with open_page(browser, shared_server.url) as opened:
+    with open_page(browser, server.url) as opened:
         yield opened
+    server.kill()
 
 
 def run(page: PlayedPage, module: str, code: str) -> Any:
@@ -119,3 +112,44 @@ def test_a_clock_that_jumps_is_found_again(page: PlayedPage) -> None:
         """,
     )
     assert offset_ms == -300
+
+
+#: A finger's places are the pointer's; everything is skin. `step` plays for some milliseconds and gives the heights over the skin.
+STAGE = """
+    const view = { toMm: (x, y) => [x, y], isOnSkin: () => true, surfaceAt: () => "PALM" };
+    const settings = { finger: "INDEX", force_n: 1, pitch_rad: 1, yaw_rad: 0, hover_mm: 12, hoverOnly: false, deviceForce: true };
+    const fingers = new m.PlayedFingers(view, () => settings);
+    let now = 0;
+    const tap = (id) => {
+      fingers.move({ id, x: 0, y: 50, pen: null }, { down: true, now });
+      fingers.move({ id, x: 0, y: 50, pen: null }, { down: false, now });
+      fingers.leave(id, now);
+    };
+    const play = (ms) => {
+      const played = fingers.at((now += ms));
+      fingers.noteSent(now);
+      return played.map(({ finger, hover_mm }) => `${finger} ${hover_mm}`);
+    };
+"""
+
+
+def test_a_tap_of_no_length_touches_for_a_while_then_hovers_then_leaves(page: PlayedPage) -> None:
+    """Also when the page was busy for a second before it could play the tap."""
+    played = run(page, "played_fingers.js", STAGE + "tap(1); return [play(1000), play(80), play(20), play(200), play(100)];")
+    assert played == [["INDEX 0"], ["INDEX 0"], ["INDEX 12"], ["INDEX 12"], []]
+
+
+def test_a_second_tap_is_the_same_finger_s(page: PlayedPage) -> None:
+    played = run(
+        page, "played_fingers.js", STAGE + "tap(1); const first = play(10); play(150); tap(2); return [first, play(10), play(100)];"
+    )
+    assert played == [["INDEX 0"], ["INDEX 0"], ["INDEX 12"]]
+
+
+def test_fingers_that_touch_together_are_neighbours(page: PlayedPage) -> None:
+    played = run(
+        page,
+        "played_fingers.js",
+        STAGE + "for (const id of [1, 2, 3]) fingers.move({ id, x: id, y: 50, pen: null }, { down: true, now }); return play(10);",
+    )
+    assert played == ["INDEX 0", "MIDDLE 0", "THUMB 0"]

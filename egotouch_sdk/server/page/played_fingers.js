@@ -2,14 +2,20 @@
 
 import { FINGERS } from "./vocabulary.js";
 
+/** A press lasts at least this long: a tap on a touch pad takes a few milliseconds, less than the time between two frames. */
+const LEAST_PRESS_MS = 90;
 /** A lifted touch hovers this long before its finger leaves, so that it ends with UP instead of a lost hand. */
 const LINGER_MS = 350;
 /** Where the second finger is put while Shift is held: sideways from the first, in millimetres of the picture. */
 const BESIDE_MM = 24;
 const FORCE_MAX_N = 3.5;
+/** The time of a press that has not been sent yet. */
+const UNPLAYED = null;
+
+const isFresh = (pressed, now) => pressed === UNPLAYED || now - pressed < LEAST_PRESS_MS;
 
 export class PlayedFingers {
-  #fingers = new Map(); // DOM pointer id -> {id, finger, x_mm, y_mm, down, pen, gone}
+  #fingers = new Map(); // DOM pointer id -> {id, finger, x_mm, y_mm, down, pressed, pen, gone}
   #settings;
   #view;
 
@@ -25,9 +31,12 @@ export class PlayedFingers {
     const onSkin = this.#view.isOnSkin(pointer.x, pointer.y);
     const known = this.#fingers.get(pointer.id);
     if (!known && !onSkin) return;
-    const finger = known?.finger ?? this.#free();
+    const { id, finger } = known ?? this.#claim();
     if (!finger) return;
-    this.#fingers.set(pointer.id, { id: known?.id ?? this.#freeId(), finger, x_mm, y_mm, down: down && onSkin, pen: pointer.pen, shift, gone: null });
+    const presses = down && onSkin;
+    const pressed = presses && !known?.down ? UNPLAYED : known ? known.pressed : -Infinity;
+    const pen = presses || !isFresh(pressed, now) ? pointer.pen : known.pen; // a lifted pen has no pressure any more
+    this.#fingers.set(pointer.id, { id, finger, x_mm, y_mm, down: presses, pressed, pen, shift, gone: null });
     if (!onSkin && !down) this.leave(pointer.id, now);
   }
 
@@ -51,7 +60,7 @@ export class PlayedFingers {
   choose() {
     const hovering = [...this.#fingers.entries()].filter(([, finger]) => !finger.down);
     for (const [key] of hovering) this.#fingers.delete(key);
-    for (const [key, finger] of hovering) this.#fingers.set(key, { ...finger, finger: this.#free() });
+    for (const [key, finger] of hovering) this.#fingers.set(key, { ...finger, ...this.#claim() });
   }
 
   /** What is played at `now`, as SimulatedPointer fields with short enum names. */
@@ -59,18 +68,27 @@ export class PlayedFingers {
     const settings = this.#settings();
     const played = [];
     for (const [key, finger] of this.#fingers) {
-      if (finger.gone !== null && now >= finger.gone) {
+      if (finger.gone !== null && now >= finger.gone && finger.pressed !== UNPLAYED) {
         this.#fingers.delete(key);
         continue;
       }
-      played.push(this.#place(finger, settings));
-      if (finger.shift) played.push(...this.#second(finger, settings));
+      played.push(this.#place(finger, settings, now));
+      if (finger.shift) played.push(...this.#second(finger, settings, now));
     }
     return played;
   }
 
-  #place({ id, finger, x_mm, y_mm, down, pen }, settings) {
-    const touching = down && !settings.hoverOnly;
+  /** What `at` gave has been sent. */
+  noteSent(now) {
+    for (const finger of this.#fingers.values()) {
+      if (finger.pressed !== UNPLAYED) continue;
+      finger.pressed = now;
+      if (finger.gone !== null) finger.gone = now + LINGER_MS;
+    }
+  }
+
+  #place({ id, finger, x_mm, y_mm, down, pressed, pen }, settings, now) {
+    const touching = (down || isFresh(pressed, now)) && !settings.hoverOnly;
     const device = settings.deviceForce && pen ? pen : {};
     return {
       id,
@@ -85,11 +103,11 @@ export class PlayedFingers {
     };
   }
 
-  #second(first, settings) {
+  #second(first, settings, now) {
     const finger = this.#order().find((candidate) => !this.#taken(candidate));
     if (!finger) return [];
     const beside = { ...first, id: first.id + 100, finger, x_mm: first.x_mm + BESIDE_MM };
-    return [this.#place(beside, settings)];
+    return [this.#place(beside, settings, now)];
   }
 
   #taken(finger) {
@@ -103,8 +121,17 @@ export class PlayedFingers {
     return [...FINGERS].sort((a, b) => distance(a) - distance(b));
   }
 
-  #free() {
-    return this.#order().find((finger) => !this.#taken(finger)) ?? null;
+  /** The first finger in order that is free or about to leave, so that a second tap is the same finger's; and an id for it. */
+  #claim() {
+    for (const finger of this.#order()) {
+      const [key, holder] = [...this.#fingers].find(([, played]) => played.finger === finger) ?? [];
+      if (holder === undefined) return { id: this.#freeId(), finger };
+      if (holder.gone !== null) {
+        this.#fingers.delete(key);
+        return { id: holder.id, finger };
+      }
+    }
+    return {};
   }
 
   #freeId() {

@@ -14,9 +14,9 @@ export class PointerSender {
     connection.addEventListener("welcome", () => (this.#sent = ""));
   }
 
-  /** Send `pointers` when they are new or the last message is old; `host` is the touched arm. */
+  /** Send `pointers` when they are new or the last message is old; `host` is the touched arm. True when they were sent. */
   offer(pointers, host, now) {
-    if (now - this.#at < LEAST_MS) return;
+    if (now - this.#at < LEAST_MS) return false;
     const hand = `HANDEDNESS_${host === "LEFT" ? "RIGHT" : "LEFT"}`;
     const message = {
       simulated: {
@@ -29,9 +29,10 @@ export class PointerSender {
       },
     };
     const text = JSON.stringify(message);
-    if (text === this.#sent && (!pointers.length || now - this.#at < AGAIN_MS)) return;
-    if (!this.#connection.send(message)) return;
+    if (text === this.#sent && (!pointers.length || now - this.#at < AGAIN_MS)) return false;
+    if (!this.#connection.send(message)) return false;
     this.#sent = text;
     this.#at = now;
+    return true;
   }
 }

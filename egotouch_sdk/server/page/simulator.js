@@ -77,8 +77,9 @@ const drawPlot = atMostEvery(PLOT_EVERY_MS, (now) => {
   byId("force-now").textContent = forceNow;
 });
 function play() {
-  played = fingers.at(performance.now());
-  sender.offer(played, view.host, performance.now());
+  const now = performance.now();
+  played = fingers.at(now);
+  if (sender.offer(played, view.host, now)) fingers.noteSent(now);
 }
 function draw(now) {
   const busy = marks.busy || played.length > 0;
