@@ -96,10 +96,10 @@ def evaluate_false_touches(options: argparse.Namespace) -> int:
 
 def evaluate_host_frame(options: argparse.Namespace) -> int:
     """Print errors of place and angles per surface."""
-    from egotouch_sdk.evaluation.host_frame import format_report, host_report
     from egotouch_sdk.cli.host_frame_cases import demo_cases, pose_cases, still_cases
+    from egotouch_sdk.evaluation.host_frame import format_report, host_report
 
-    if options.render is not None and options.stills is None or options.exact and options.poses is None:
+    if (options.render is not None and options.stills is None) or (options.exact and options.poses is None):
         raise ConfigError("--render needs --stills DIR, --exact needs --poses N")
     if options.poses is not None:
         cases = pose_cases(options.poses, exact=options.exact)

@@ -9,11 +9,10 @@ from typing import Any
 
 import numpy as np
 
-from egotouch_sdk.config import HostConfig
-from egotouch_sdk.gate import find_pairs
-from egotouch_sdk.config import GateConfig
-from egotouch_sdk.hands.base import HandSource
+from egotouch_sdk.config import GateConfig, HostConfig
 from egotouch_sdk.frame import Frame
+from egotouch_sdk.gate import find_pairs
+from egotouch_sdk.hands.base import HandSource
 from egotouch_sdk.host_frame import locate
 from egotouch_sdk.joints import Finger, Handedness
 from egotouch_sdk.observation import HostPoint, TouchPair
@@ -78,7 +77,7 @@ def _row(errors: Sequence[HostErrors], cases_n: int) -> dict[str, float]:
     for name in ("nominal_mm", "fitted_mm", "pitch_deg", "yaw_deg"):
         sizes = [abs(getattr(error, name)) for error in errors] or [nan]
         row[f"{name}_median"], row[f"{name}_p95"] = (round(float(np.percentile(sizes, q)), 2) for q in (50, 95))
-    row["surface_accuracy"] = round(float(np.mean([error.right_surface for error in errors] or [nan])), 4)
+    row["surface_accuracy"] = round(float(np.mean([float(error.right_surface) for error in errors] or [nan])), 4)
     return row
 
 

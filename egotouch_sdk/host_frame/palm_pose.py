@@ -29,7 +29,9 @@ _JOINTS = [
     HandJoint.PINKY_MCP,
 ]
 #: Where they lie in the host frame: x to the thumb, y to the middle MCP, z out of the back of the hand, in millimetres.
-_TRUE_MM: Floats = np.array([[0.0, 0.0, 0.0], [25.3, 21.2, -21.7], [21.2, 84.0, -7.3], [0.0, 83.0, 0.0], [-19.5, 75.7, -1.9], [-37.7, 64.8, -7.3]])
+_TRUE_MM: Floats = np.array(
+    [[0.0, 0.0, 0.0], [25.3, 21.2, -21.7], [21.2, 84.0, -7.3], [0.0, 83.0, 0.0], [-19.5, 75.7, -1.9], [-37.7, 64.8, -7.3]]
+)
 #: How far from there the tracker sees them (x, y), and how that varies (standard deviation), in millimetres, seen from the back and
 #: from the palm: medians over 100 rendered stills of 16 participants, one hand touching the other (our measurement).
 _SEEN_FROM_BACK: Floats = np.array([[-2.0, 2.1], [4.5, 3.1], [-0.6, -2.3], [-1.2, -1.9], [-1.2, -0.6], [-0.2, 0.5]])
@@ -74,8 +76,8 @@ def fit_palm(landmarks_px: Floats) -> PalmPose | None:
     affine = np.linalg.lstsq(joints[:, :2] * root, seen[:, :2] * root, rcond=None)[0].T
     if np.linalg.svd(affine, compute_uv=False)[0] < 1e-6:
         return None
-    best = min((_refined(start, joints, seen[:, :2], root) for start in _starts(affine)), key=lambda fit: _cost(*fit, joints, seen, weights))
-    rotation, scale = best
+    fits = [_refined(start, joints, seen[:, :2], root) for start in _starts(affine)]
+    rotation, scale = min(fits, key=lambda fit: _cost(fit[0], fit[1], joints, seen, weights))
     return PalmPose(rotation, scale, seen_centre[:2] - scale * (rotation[:2] @ joints_centre))
 
 
@@ -85,7 +87,7 @@ def _area(seen: Floats) -> float:
     return float(a[0] * b[1] - a[1] * b[0])
 
 
-def _starts(affine: Floats) -> Iterator[tuple[Floats, float]]:
+def _starts(affine: npt.NDArray[np.floating]) -> Iterator[tuple[Floats, float]]:
     """The two rotations under which a flat palm looks like this affine map, with its scale: it may lean either way."""
     u, s, vt = np.linalg.svd(affine)
     share = min(float(s[1] / s[0]), 1.0)
@@ -117,7 +119,7 @@ def _cost(rotation: Floats, scale: float, joints: Floats, seen: Floats, weights:
     return float(weights @ (off[:, :2] ** 2).sum(1)) + float(weights @ off[:, 2] ** 2) * (3.0 / _Z_SD_MM) ** 2
 
 
-def _turn(vector: Floats) -> Floats:
+def _turn(vector: npt.NDArray[np.floating]) -> Floats:
     """Rotation (3, 3) about `vector` by its length (Rodrigues)."""
     angle = float(np.linalg.norm(vector))
     if angle < 1e-12:

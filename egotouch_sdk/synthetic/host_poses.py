@@ -45,4 +45,5 @@ def _seen(
     px_per_mm = truth.focal_px / float(landmarks_mm[:, 2].mean())
     noise = rng.standard_normal((NUM_JOINTS, 3)) * noise_mm
     world = landmarks_mm - landmarks_mm.mean(0)
-    return HandObservation(hand_id, side, 1.0, truth.landmarks_px(landmarks_mm) + noise * px_per_mm, world + noise)
+    landmarks = truth.landmarks_px(landmarks_mm) + noise * px_per_mm
+    return HandObservation(hand_id, side, 1.0, landmarks.astype(np.float32), (world + noise).astype(np.float32))

@@ -118,6 +118,4 @@ def view_of(stage: Stage, touch: Touch, camera: Camera, participant: int) -> Hos
     axes = np.stack([right, np.cross(forward, right), forward], 1)
     host, touching = ((points - camera.origin) @ axes * 1e3 for points in (stage.host_landmarks_m, touch.landmarks_m))
     focal_px = float(camera.width_px / 2 / np.tan(camera.fov_rad / 2))
-    return HostTruth(
-        participant, stage.plan.finger, host, touching, focal_px, touch.force_n, touch.hover_mm, host_point(stage, touch)
-    )
+    return HostTruth(participant, stage.plan.finger, host, touching, focal_px, touch.force_n, touch.hover_mm, host_point(stage, touch))

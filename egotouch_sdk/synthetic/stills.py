@@ -59,9 +59,7 @@ def render_still(rng: np.random.Generator, host: HandRig, touching: HandRig, num
     return _develop(layers, rng), view_of(stage, touch, camera, number)
 
 
-def render_stills(
-    folder: Path, count: int, participants: tuple[int, ...], seed: int, report: Callable[[str], None]
-) -> None:
+def render_stills(folder: Path, count: int, participants: tuple[int, ...], seed: int, report: Callable[[str], None]) -> None:
     """Render stills 0 .. `count` - 1 into `folder`, those that are there left alone: NNNN.jpg and NNNN.json."""
     folder.mkdir(parents=True, exist_ok=True)
     host, touching = HandRig("left"), HandRig("right")
@@ -83,7 +81,8 @@ def _develop(layers: Layers, rng: np.random.Generator) -> npt.NDArray[np.uint8]:
     gains = rng.uniform(0.15, 0.8, 3)[:, None] * rng.uniform(0.88, 1.12, (3, 3))
     image = (layers.light @ gains.astype(np.float32)) * layers.albedo
     skin = image[layers.segment > 0]
-    image = cv2.GaussianBlur((image * (_SKIN_LEVEL / max(float(np.median(skin.mean(-1))), 1e-4))).astype(np.float32), (0, 0), 0.8)
+    gain = _SKIN_LEVEL / max(float(np.median(skin.mean(-1))), 1e-4)
+    image = np.asarray(cv2.GaussianBlur((image * gain).astype(np.float32), (0, 0), 0.8), np.float32)
     image = image + rng.standard_normal(image.shape).astype(np.float32) * np.sqrt(np.maximum(image, 0) * 4e-5 + 1.5e-6)
     tone = np.clip(np.maximum(image, 0) / (1 + 0.22 * image) * 1.18, 0, 1) ** (1 / 2.2)
     return np.ascontiguousarray((tone * 255).astype(np.uint8)[:, :, ::-1])
