@@ -142,8 +142,6 @@ def test_a_tap_of_no_length_touches_for_a_while_then_hovers_then_leaves(page: Pl
 def test_a_second_tap_is_the_same_finger_s(page: PlayedPage) -> None:
     code = "tap(1); const first = play(10); play(150); tap(2); return [first, play(10), play(100)];"
     played = run(page, "played_fingers.js", STAGE + code)
-        page, "played_fingers.js", STAGE + "tap(1); const first = play(10); play(150); tap(2); return [first, play(10), play(100)];"
-    )
     assert played == [["INDEX 0"], ["INDEX 0"], ["INDEX 12"]]
 
 

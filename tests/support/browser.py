@@ -174,6 +174,13 @@ class PlayedPage:
         """Wait for a connection state."""
         self.page.locator(f"#pill[data-state={state}]").wait_for(timeout=PATIENCE_S * 1000)
 
+    def wait_until(self, condition: str) -> None:
+        """Wait for a condition in JavaScript. (Playwright's own way needs `eval` in the page, which its security policy forbids.)"""
+        deadline_s = monotonic() + PATIENCE_S
+        while not self.page.evaluate(condition):
+            assert monotonic() < deadline_s, condition
+            self.page.wait_for_timeout(20)
+
     @property
     def contacts(self) -> int:
         """Contacts that are down on this page."""
