@@ -39,6 +39,18 @@ EXAMPLES = """\
   egotouch serve taps.yaml               a script, over and over
   egotouch serve 0 --lan                 headsets on the same network: open the address or scan the code
   egotouch serve clip.mp4 --once         a video, once
+  egotouch serve 0 --publish nats://hub:4222 --session booth-3
+                                         to a NATS server too: egotouch.v1.booth-3.palm.down and so on
+"""
+NOTES = """
+besides what --help of other commands names, SOURCE may be:
+  simulator   fingers played on the page /simulator.html
+  client      one client pushes ClientFrame messages (JPEG, up to 1 MiB and 3840x2160 px), with a ClientHands of the same
+              timestamp_ns for each frame where the headset tracks hands itself; the newest frame counts, older ones are dropped
+
+--publish sends each event as a TouchEvent to egotouch.v1.SESSION.SURFACE.TYPE, for example egotouch.v1.booth-3.palm.down; subscribe
+to egotouch.v1.> for everything. Credentials: nats://user:password@host, nats://token@host, or "user:password" or a token in
+EGOTOUCH_NATS_CREDENTIALS. While NATS is away nothing is kept beyond 250 ms; open touches are cancelled when it is back.
 """
 SIMULATOR = "simulator"
 CLIENT = "client"
@@ -49,7 +61,7 @@ ALL_INTERFACES = ""
 
 def add_parser(subparsers: Subparsers) -> None:
     """Add `serve` to the command line."""
-    parser = add_command(subparsers, "serve", "touch events over WebSocket, with a live page in the browser", EXAMPLES)
+    parser = add_command(subparsers, "serve", "touch events over WebSocket, with a live page in the browser", EXAMPLES + NOTES)
     add_source_options(parser)
     add_pipeline_options(parser)
     parser.add_argument("--once", action="store_true", help="play a source that ends once, and stop then; else it begins again")
@@ -66,6 +78,9 @@ def add_server_options(parser: argparse._ActionsContainer) -> None:
     parser.add_argument("--allow-origin", action="append", default=[], metavar="URL", help="pages from there may connect too (repeatable)")
     parser.add_argument("--allow-host", action="append", default=[], metavar="NAME", help="another name of the server (repeatable)")
     parser.add_argument("--mdns", action="store_true", help="with --lan: announce the server to apps on the network")
+    parser.add_argument("--publish", metavar="nats://HOST:4222", help="republish every event to this NATS server too (or tls://)")
+    parser.add_argument("--publish-json", action="store_true", help="with --publish: events as JSON instead of protobuf")
+    parser.add_argument("--session", metavar="NAME", help="with --publish: name in egotouch.v1.NAME.SURFACE.TYPE (default: this machine's)")
     parser.add_argument("--no-page", action="store_true", help="serve no page, only events")
     parser.add_argument("--debug-view", action="store_true", help="show video on the page, and let clients ask for the landmarks of hands")
 
@@ -96,15 +111,18 @@ async def _serve(
     server = EventServer(_settings(options, lan, engine.config, push, video))
     if isinstance(push, HeadsetTarget):
         server.metrics.more.append(push.lines)
+    publishing = _publishing(options, server)
     await server.start()
     feed = Feed(server, source, engine, stall_ms=engine.config.state.stall_ms, repeat=not options.once)
     try:
         _introduce(options, lan, server)
-        async with _announced(options, lan, server):
+        async with publishing, _announced(options, lan, server):
             feed.start()
-            await asyncio.wait((stop, feed.ended), return_when=asyncio.FIRST_COMPLETED)
+            try:
+                await asyncio.wait((stop, feed.ended), return_when=asyncio.FIRST_COMPLETED)
+            finally:
+                await feed.stop()
     finally:
-        await feed.stop()
         await server.stop()
     if interrupted.is_set():
         sys.stderr.write("egotouch: interrupted\n")
@@ -194,6 +212,7 @@ def _introduce(options: argparse.Namespace, lan: Lan | None, server: EventServer
     from egotouch_sdk.clock import now_ns
     from egotouch_sdk.server.access import TokenAccess
     from egotouch_sdk.server.lan import page_url
+    from egotouch_sdk.server.nats_publisher import NatsAddress
 
     scheme = "https" if lan else "http"
     hosts = (*lan.addresses, *lan.names[1:]) if lan else (server.settings.host,)
@@ -208,6 +227,8 @@ def _introduce(options: argparse.Namespace, lan: Lan | None, server: EventServer
         print(f"  SHA-256    {lan.fingerprint}  (of the certificate, which browsers do not know: accept it once)")
     if isinstance(server.settings.access, TokenAccess):
         server.settings.access.offer_code(now_ns())
+    if options.publish:
+        print(f"  NATS       {NatsAddress.parse(options.publish)}")
     if options.debug_view:
         print("  Video and landmarks of the hands in view leave this program for clients that ask: --debug-view is on.")
     sys.stdout.flush()
@@ -228,6 +249,24 @@ def _announced(options: argparse.Namespace, lan: Lan | None, server: EventServer
     from egotouch_sdk.server.announce import announced
 
     return announced(lan.names[0] if lan.names else "egotouch", lan.addresses, server.port, lan.fingerprint)
+
+
+def _publishing(options: argparse.Namespace, server: EventServer) -> contextlib.AbstractAsyncContextManager[None]:
+    if not options.publish:
+        if options.session or options.publish_json:
+            raise ConfigError("--session and --publish-json are about publishing", hint="Add --publish nats://host:4222")
+        return _nothing()
+    from egotouch_sdk.server.nats_publisher import CREDENTIALS_VARIABLE, NatsAddress, NatsPublisher
+    from egotouch_sdk.server.network import host_names
+    from egotouch_sdk.server.publication import Publication
+
+    address = NatsAddress.parse(options.publish, os.environ.get(CREDENTIALS_VARIABLE, ""))
+    session = options.session or next(iter(host_names()), "egotouch")
+    publication = Publication(session, server.settings.limits, as_json=options.publish_json)
+    publisher = NatsPublisher(address, publication)
+    server.hub.sinks.append(publisher.offer)
+    server.metrics.more.append(publication.lines)
+    return publisher.running()
 
 
 @contextlib.asynccontextmanager
