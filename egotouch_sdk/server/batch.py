@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Hashable
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 from egotouch_sdk.listeners import merge
 from egotouch_sdk.touch_event import EventType, TouchEvent
@@ -11,8 +12,13 @@ from egotouch_sdk.touch_event import EventType, TouchEvent
 #: What one event counts for in an outbox: its size as protobuf, rounded up (our measurement: 95 bytes).
 EVENT_BYTES = 128
 
-#: A finished message beside the events in it, whose identities are its key: they must live as long as it does.
-Encoded = tuple[tuple[TouchEvent, ...], bytes | str]
+
+class Encoded(NamedTuple):
+    """A finished message, when it was made, and the events in it, whose identities are its key: they must live as long as it does."""
+
+    sent_ns: int
+    events: tuple[TouchEvent, ...]
+    data: bytes | str
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -5,9 +5,12 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import socket
+from functools import lru_cache
 
-from websockets.asyncio.server import ServerConnection, broadcast
+from websockets.asyncio.server import ServerConnection
 from websockets.exceptions import ConnectionClosed
+from websockets.frames import Frame, Opcode
+from websockets.protocol import State
 
 from egotouch_sdk.clock import now_ns
 from egotouch_sdk.server.close_code import CloseCode
@@ -59,8 +62,11 @@ class Client:
             data = self.session.next_message(now_ns())
             if data is None:
                 break
-            broadcast((self._socket,), data)
-            self._metrics.messages += 1
+            if self._socket.protocol.state is State.OPEN:
+                self._socket.transport.write(_frame(data))
+                self._metrics.messages += 1
+            if not self.session.has_waiting:
+                break
         if self.session.close is not None or not self._has_room:
             self._wake.set()
 
@@ -78,6 +84,13 @@ class Client:
             self._wake.clear()
             self.flush()
         await hang_up(self._socket, self.session.close.code, self.session.close.reason)
+
+
+@lru_cache(maxsize=8)
+def _frame(data: bytes | str) -> bytes:
+    """The message as the WebSocket frame that goes to every client: servers do not mask, and nothing here is compressed."""
+    opcode, payload = (Opcode.TEXT, data.encode()) if isinstance(data, str) else (Opcode.BINARY, data)
+    return Frame(opcode, payload).serialize(mask=False)
 
 
 async def hang_up(connection: ServerConnection, code: CloseCode, reason: str) -> None:

@@ -9,7 +9,7 @@ from math import ceil
 
 from egotouch_sdk.errors import ProtocolError
 from egotouch_sdk.server.access import Access, OpenAccess
-from egotouch_sdk.server.batch import Batch
+from egotouch_sdk.server.batch import Batch, Encoded
 from egotouch_sdk.server.close_code import Close, CloseCode
 from egotouch_sdk.server.journal import Journal
 from egotouch_sdk.server.limits import MILLISECOND_NS, SECOND_NS, Limits
@@ -286,8 +286,8 @@ class Session:
         late, events = shown
         key = (self._subprotocol.name, self.subscription.latest_only, late, self._offset, tuple(map(id, events)))
         shared = batch.encoded.get(key)
-        if shared is not None and now_ns - batch.published_ns <= SHARED_NS:
-            return shared[1]
+        if shared is not None and now_ns - shared.sent_ns <= SHARED_NS:
+            return shared.data
         content = pb.EventBatch(
             frame_index=batch.frame_index,
             timestamp_ns=batch.timestamp_ns,
@@ -296,7 +296,7 @@ class Session:
             late=late,
         )
         data = self._subprotocol.encode(pb.ServerMessage(offset=self._offset, batch=content))
-        batch.encoded[key] = events, data
+        batch.encoded[key] = Encoded(now_ns, events, data)
         return data
 
     def _event(self, event: TouchEvent) -> pb.TouchEvent:
