@@ -89,7 +89,9 @@ async def listening(server: NatsServer, subject: str = "egotouch.v1.>", **login:
         while True:
             client = Client()
             try:
-                await client.connect(server.url, error_cb=quiet, allow_reconnect=False, **login)
+                await client.connect(
+                    server.url, error_cb=quiet, allow_reconnect=False, max_reconnect_attempts=1, reconnect_time_wait=0, **login
+                )
                 break
             except Exception:  # it does not listen yet
                 with contextlib.suppress(Exception):
