@@ -8,10 +8,11 @@ PYTHON ?= $(shell for p in python3 python3.13 python3.12 python3.11; do \
 # Options for pytest, for example `make test PYTEST_ARGS="-k sources -x"`.
 PYTEST_ARGS ?= -n 2 --dist loadfile -q
 
-# What the tests need; CI also runs the training tests, with one pinned PyTorch (elsewhere they run where PyTorch is installed).
+# What the tests need; CI also runs those of training, with one pinned PyTorch, and of the pages in a browser (elsewhere they run
+# where PyTorch, or Playwright and Chromium, are installed).
 EXTRAS ?= dev,synthetic
 ifdef CI
-EXTRAS := dev,synthetic,train
+EXTRAS := browser,dev,synthetic,train
 TORCH  ?= torch==2.13.0
 endif
 

@@ -1,4 +1,4 @@
-"""Touches with a known answer for `egotouch evaluate host-frame`: the demo clip, random poses, rendered stills."""
+"""Touches with a known answer for `egotouch evaluate host-frame`: the demo clip, rendered stills."""
 
 from __future__ import annotations
 
@@ -17,10 +17,9 @@ from egotouch_sdk.joints import Finger, Handedness
 from egotouch_sdk.observation import HostPoint
 from egotouch_sdk.surface import Surface
 
-#: Stills have participants below this. Even numbers set what `host_frame` corrects of the tracker, so only odd ones are scored. That is
-#: no clean test: variants were compared on odd ones too, and the skin's shape comes from poses of participants 0 to 15.
+#: Stills have participants below this.
 _PARTICIPANTS = 32
-_POSES_SEED, _STILLS_SEED, _NOISE_SEED = 5, 1, 0
+_STILLS_SEED = 1
 
 
 def demo_cases() -> Iterator[HostCase]:
@@ -45,18 +44,8 @@ def demo_cases() -> Iterator[HostCase]:
                 yield HostCase(pair, Finger(truth["finger"]), point, truth["palm_mm"])
 
 
-def pose_cases(count: int, *, exact: bool) -> Iterator[HostCase]:
-    """Random poses with the noise of a tracker, or none."""
-    from egotouch_sdk.synthetic.host_poses import draw_poses, observed
-
-    rng = np.random.default_rng(_NOISE_SEED)
-    for truth in draw_poses(count, tuple(range(_PARTICIPANTS)), _POSES_SEED):
-        pair = observed(truth, rng, 0.0, 0.0) if exact else observed(truth, rng)
-        yield HostCase(pair, truth.finger, truth.point, truth.palm_mm)
-
-
 def still_cases(folder: Path, render: int, report: Callable[[str], None]) -> Iterator[HostCase]:
-    """Rendered stills of participants with odd numbers (see `_PARTICIPANTS`) in which the tracker finds both hands."""
+    """Rendered stills in which the tracker finds both hands about where they are."""
     import cv2
 
     from egotouch_sdk.hands.tracker import HandTracker
@@ -71,11 +60,9 @@ def still_cases(folder: Path, render: int, report: Callable[[str], None]) -> Ite
     tracker = HandTracker()
     for path in truths:
         truth = HostTruth.from_dict(json.loads(path.read_text()))
-        if truth.participant % 2 == 0:
-            continue
         pair = seen_pair(tracker, cv2.imread(str(path.with_suffix(".jpg"))))
         if pair is not None and _is_on_hands(truth, pair.host.landmarks_px, pair.touching.landmarks_px):
-            yield HostCase(pair, truth.finger, truth.point, truth.palm_mm)
+            yield HostCase(pair, truth.finger, truth.point, truth.palm_mm, truth.participant)
 
 
 def _is_on_hands(truth: Any, host_px: Any, touching_px: Any) -> bool:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import json
 import sys
 from dataclasses import asdict
 from pathlib import Path
@@ -19,8 +20,8 @@ EXAMPLES = """\
 """
 HOST_FRAME_EXAMPLES = """\
   egotouch evaluate host-frame                               the demo clip's touches
-  egotouch evaluate host-frame --poses 500                   random poses with a tracker's noise
-  egotouch evaluate host-frame --stills data/host_frame --render 200
+  egotouch evaluate host-frame --stills data/host_frame --render 400            rendered people, each scored by a fit to others
+  egotouch evaluate host-frame --stills data/host_frame --fit tracker_fit.json  the fit to all of them, to use
 """
 #: Where the TIP landmark lies in the finger-up pictures of the thumb study, and their scale (measured on them).
 THUMB_TIP_PX = (316.0, 175.0)
@@ -48,11 +49,9 @@ def add_parser(subparsers: Subparsers) -> None:
     false.add_argument("--json", action="store_true", help="one JSON object per video and one for all on stdout")
     false.set_defaults(handler=evaluate_false_touches)
     host = add_command(kinds, "host-frame", "compare place and angles with the generator's truth", HOST_FRAME_EXAMPLES)
-    kind = host.add_mutually_exclusive_group()
-    kind.add_argument("--poses", type=int, metavar="N", help="N random poses with a tracker's noise instead of the demo clip")
-    kind.add_argument("--stills", type=Path, metavar="DIR", help="rendered stills in DIR through the hand tracker")
+    host.add_argument("--stills", type=Path, metavar="DIR", help="rendered stills in DIR through the hand tracker, not the demo clip")
     host.add_argument("--render", type=int, metavar="N", help="with --stills: first render until N are there, 2 s each")
-    host.add_argument("--exact", action="store_true", help="with --poses: without noise")
+    host.add_argument("--fit", type=Path, metavar="FILE", help="with --stills: write the fit to all of them as JSON")
     host.add_argument("--json", action="store_true", help="one JSON object on stdout")
     host.set_defaults(handler=evaluate_host_frame)
 
@@ -96,18 +95,19 @@ def evaluate_false_touches(options: argparse.Namespace) -> int:
 
 def evaluate_host_frame(options: argparse.Namespace) -> int:
     """Print errors of place and angles per surface."""
-    from egotouch_sdk.cli.host_frame_cases import demo_cases, pose_cases, still_cases
+    from egotouch_sdk.cli.host_frame_cases import demo_cases, still_cases
     from egotouch_sdk.evaluation.host_frame import format_report, host_report
+    from egotouch_sdk.evaluation.host_frame_fit import fit_tracker, fits_of_others, to_dict
 
-    if (options.render is not None and options.stills is None) or (options.exact and options.poses is None):
-        raise ConfigError("--render needs --stills DIR, --exact needs --poses N")
-    if options.poses is not None:
-        cases = pose_cases(options.poses, exact=options.exact)
-    elif options.stills is not None:
-        cases = still_cases(options.stills, options.render or 0, lambda line: print(line, file=sys.stderr))
+    if options.stills is None:
+        if options.render is not None or options.fit is not None:
+            raise ConfigError("--render and --fit need --stills DIR")
+        report = host_report(demo_cases())
     else:
-        cases = demo_cases()
-    report = host_report(cases)
+        cases = list(still_cases(options.stills, options.render or 0, lambda line: print(line, file=sys.stderr)))
+        report = host_report(cases, fits_of_others(cases))
+        if options.fit is not None:
+            options.fit.write_text(json.dumps(to_dict(fit_tracker(cases)), separators=(",", ":")) + "\n", encoding="utf-8")
     if options.json:
         print_json(report)
     else:

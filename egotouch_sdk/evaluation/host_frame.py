@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from math import degrees, hypot, nan, pi
 from typing import Any
@@ -13,9 +13,11 @@ from egotouch_sdk.config import GateConfig, HostConfig
 from egotouch_sdk.frame import Frame
 from egotouch_sdk.gate import find_pairs
 from egotouch_sdk.hands.base import HandSource
-from egotouch_sdk.host_frame import locate
+from egotouch_sdk.host_frame.locate import TrackerFit, locate
 from egotouch_sdk.joints import Finger, Handedness
 from egotouch_sdk.observation import HostPoint, TouchPair
+
+Report = dict[str, dict[str, float]]
 
 #: Frames of one still that the tracker gets, so that it follows the hands as it does in a video instead of only finding them.
 _SETTLE_FRAMES = 3
@@ -24,12 +26,13 @@ _FRAME_NS = 33_333_333
 
 @dataclass(frozen=True, slots=True)
 class HostCase:
-    """A pair of hands as seen, the finger that touches, the exact answer and the wearer's own palm length."""
+    """A pair of hands as seen, the finger that touches, the exact answer, the wearer's own palm length and number."""
 
     pair: TouchPair
     finger: Finger
     truth: HostPoint
     palm_mm: float
+    participant: int = -1
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,10 +46,10 @@ class HostErrors:
     right_surface: bool
 
 
-def errors_of(case: HostCase, *, mirrored: bool = False) -> HostErrors | None:
-    """What `locate` makes of a case; None when it finds no host point."""
-    nominal = locate(case.pair, case.finger, mirrored=mirrored)
-    fitted = locate(case.pair, case.finger, HostConfig(palm_mm=case.palm_mm), mirrored=mirrored)
+def errors_of(case: HostCase, fit: TrackerFit | None = None) -> HostErrors | None:
+    """What `locate` makes of a case with the shipped or another fit; None when it finds no host point."""
+    nominal = locate(case.pair, case.finger, fit=fit)
+    fitted = locate(case.pair, case.finger, HostConfig(palm_mm=case.palm_mm), fit=fit)
     if nominal is None or fitted is None:
         return None
     truth = case.truth
@@ -59,12 +62,12 @@ def errors_of(case: HostCase, *, mirrored: bool = False) -> HostErrors | None:
     )
 
 
-def host_report(cases: Iterable[HostCase]) -> dict[str, dict[str, float]]:
-    """Median and 95th percentile of every error, per true surface and for "all"."""
+def host_report(cases: Iterable[HostCase], fit_for: Callable[[HostCase], TrackerFit | None] = lambda _: None) -> Report:
+    """Median and 95th percentile of every error, per true surface and for "all"; `fit_for` a case gives None for the shipped fit."""
     found: dict[str, list[HostErrors]] = {}
     cases_n: dict[str, int] = {}
     for case in cases:
-        errors = errors_of(case)
+        errors = errors_of(case, fit_for(case))
         for name in (str(case.truth.surface), "all"):
             cases_n[name] = cases_n.get(name, 0) + 1
             found.setdefault(name, []).extend([] if errors is None else [errors])
@@ -90,7 +93,7 @@ def seen_pair(tracker: HandSource, image: Any) -> TouchPair | None:
     return next((pair for pair in pairs if pair.touching.handedness is Handedness.RIGHT), None)
 
 
-def format_report(report: dict[str, dict[str, float]]) -> str:
+def format_report(report: Report) -> str:
     """The report as a table: median and p95 of each error."""
     head = f"{'':<15}{'cases':>6}{'located':>8}{'position mm':>15}{'own palm mm':>15}{'pitch deg':>14}{'yaw deg':>14}{'surface':>9}"
     lines = [head]

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from egotouch_sdk.config import HostConfig
-from egotouch_sdk.host_frame.palm_pose import PALM_MM
+from egotouch_sdk.host_frame.locate import PALM_MM
 from egotouch_sdk.joints import Finger, HandJoint, Handedness
 from egotouch_sdk.observation import HandObservation, HostPoint, TouchPair
 from egotouch_sdk.surface import Surface

@@ -9,7 +9,6 @@ import pytest
 
 from egotouch_sdk.config import HostConfig
 from egotouch_sdk.host_frame import locate
-from egotouch_sdk.host_frame.palm_pose import fit_palm
 from egotouch_sdk.joints import Finger, HandJoint, Handedness
 from egotouch_sdk.observation import HandObservation, HostPoint, TouchPair
 from egotouch_sdk.surface import Surface
@@ -106,4 +105,3 @@ def test_the_wearers_own_palm_scales_the_place_alone() -> None:
 def test_a_host_on_one_spot_has_no_place() -> None:
     spot = HandObservation(2, Handedness.LEFT, 1.0, np.zeros((21, 3)), np.zeros((21, 3)))
     assert locate(pair_at((620.0, 400.0), spot), Finger.INDEX) is None
-    assert fit_palm(np.zeros((21, 3))) is None
