@@ -63,7 +63,8 @@ def _angles(case: HostCase, tip: SeenTip) -> tuple[float, float]:
 
 
 def _ridge(features: Floats, targets: Floats, penalty: float) -> LinearMap:
-    mean, spread = features.mean(0), np.maximum(features.std(0), 1e-6)
+    mean, spread = features.mean(0), features.std(0)
+    spread[spread < 1e-6] = 1.0
     deviations = np.clip((features - mean) / spread, -MAX_DEVIATION, MAX_DEVIATION)
     bias = targets.mean(0)
     square = deviations.T @ deviations + penalty * np.eye(deviations.shape[1])

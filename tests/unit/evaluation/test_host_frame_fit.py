@@ -59,7 +59,8 @@ def test_nobody_is_scored_by_a_fit_to_himself(cases: list[HostCase]) -> None:
 def test_a_fit_survives_its_file(cases: list[HostCase]) -> None:
     fit = fit_tracker(cases)
     data = json.loads(json.dumps(to_dict(fit)))
-    again = TrackerFit({Surface(name): LinearMap.from_dict(one) for name, one in data["position"].items()}, LinearMap.from_dict(data["angle"]))
+    position = {Surface(name): LinearMap.from_dict(one) for name, one in data["position"].items()}
+    again = TrackerFit(position, LinearMap.from_dict(data["angle"]))
     for one in cases[:8]:
         first, second = errors_of(one, fit), errors_of(one, again)
         assert first is not None
