@@ -43,7 +43,7 @@ EXAMPLES = """\
                                          to a NATS server too: egotouch.v1.booth-3.palm.down and so on
 """
 NOTES = """
-besides what --help of other commands names, SOURCE may be:
+SOURCE may also be:
   simulator   fingers played on the page /simulator.html
   client      one client pushes ClientFrame messages (JPEG, up to 1 MiB and 3840x2160 px), with a ClientHands of the same
               timestamp_ns for each frame where the headset tracks hands itself; the newest frame counts, older ones are dropped

@@ -69,7 +69,7 @@ def test_a_headset_that_vanishes_in_a_touch_cancels_it_for_everybody_and_another
 
 def test_a_headset_that_falls_silent_in_a_touch_cancels_it() -> None:
     async def test() -> None:
-        async with headset_server() as server:
+        async with headset_server(stall_ms=250.0) as server:
             listener, headset = SocketClient(server), Headset(server)
             await listener.join(subscribe=CONTACTS)
             await headset.join()

@@ -133,6 +133,35 @@ async def _from(listener: Any, last: EventType) -> AsyncIterator[Any]:
             return
 
 
+def test_what_happens_last_is_still_sent() -> None:
+    async def test() -> None:
+        with nats_server() as nats:
+            async with listening(nats) as listener:
+                async with publishing(NatsAddress.parse(nats.url)) as (server, publication):
+                    await until(publication, connected=True)
+                    expected = tap(SocketFinger(server))
+                assert types(await listener.hear(len(expected))) == expected
+
+    run(test())
+
+
+def test_a_server_that_freezes_holds_nothing_up_and_is_given_up() -> None:
+    async def test() -> None:
+        with nats_server() as nats:
+            async with publishing(NatsAddress.parse(nats.url)) as (server, publication):
+                client, finger = SocketClient(server), SocketFinger(server)
+                await client.join()
+                await until(publication, connected=True)
+                nats.freeze()
+                expected = tap(finger)
+                async with asyncio.timeout(1):
+                    await client.hear(*expected)
+                await until(publication, connected=False)
+                await client.hear(*tap(finger))
+
+    run(test())
+
+
 def test_serving_begins_without_nats_and_publishing_when_it_is_there(caplog: pytest.LogCaptureFixture) -> None:
     async def test() -> None:
         nats = NatsServer()

@@ -57,14 +57,14 @@ def frames_until(event_type: EventType) -> int:
 
 
 @asynccontextmanager
-async def headset_server() -> AsyncIterator[EventServer]:
-    """A server with the real pipeline that waits for a headset."""
+async def headset_server(*, stall_ms: float = 10_000.0) -> AsyncIterator[EventServer]:
+    """A server with the real pipeline that waits for a headset; patient, so that a busy machine changes nothing."""
     source = HeadsetSource()
     target = HeadsetTarget(source)
     async with running_server(push=target) as server:
         server.metrics.more.append(target.lines)
         engine = HeadsetPipeline(TouchPipeline(), source)
-        feed = Feed(server, source, engine, stall_ms=engine.config.state.stall_ms)
+        feed = Feed(server, source, engine, stall_ms=stall_ms)
         feed.start()
         try:
             yield server
