@@ -25,6 +25,8 @@ KERNEL_BUFFER_BYTES = 64 * 1024
 BLOCKED_POLL_S = 0.01
 #: How long a client may take to answer the close before the connection is cut.
 CLOSE_PATIENCE_S = 2.0
+#: RFC 6455, section 7.4.1: the connection broke without a close.
+ABNORMAL_CLOSURE = 1006
 #: Linux: bytes that the kernel keeps unsent before the socket counts as full.
 _TCP_NOTSENT_LOWAT = getattr(socket, "TCP_NOTSENT_LOWAT", 25)
 
@@ -54,7 +56,7 @@ class Client:
             with contextlib.suppress(asyncio.CancelledError):
                 await relay
             self._metrics.merged += self.session.merged
-            self._metrics.closed[int(self.session.close.code if self.session.close else self._socket.close_code or 1006)] += 1
+            self._metrics.closed[int(self.session.close.code if self.session.close else ended_with(self._socket))] += 1
 
     def flush(self) -> None:
         """Hand over what the socket has room for; the relay does the rest."""
@@ -91,6 +93,12 @@ def _frame(data: bytes | str) -> bytes:
     """The message as the WebSocket frame that goes to every client: servers do not mask, and nothing here is compressed."""
     opcode, payload = (Opcode.TEXT, data.encode()) if isinstance(data, str) else (Opcode.BINARY, data)
     return Frame(opcode, payload).serialize(mask=False)
+
+
+def ended_with(connection: ServerConnection) -> int:
+    """The close code that came, else the one that was sent (a client that is stopped does not answer), else 1006."""
+    close = connection.protocol.close_rcvd or connection.protocol.close_sent
+    return close.code if close is not None else ABNORMAL_CLOSURE
 
 
 async def hang_up(connection: ServerConnection, code: CloseCode, reason: str) -> None:

@@ -17,7 +17,7 @@ from egotouch_sdk.clock import now_ns
 from egotouch_sdk.errors import ConfigError
 from egotouch_sdk.frame_result import FrameResult
 from egotouch_sdk.server.access import Access, OpenAccess
-from egotouch_sdk.server.client import WRITE_AHEAD_BYTES, Client, hang_up
+from egotouch_sdk.server.client import WRITE_AHEAD_BYTES, Client, ended_with, hang_up
 from egotouch_sdk.server.close_code import CloseCode
 from egotouch_sdk.server.crowd import Crowd, counted_in
 from egotouch_sdk.server.debug_video import DebugVideo
@@ -179,7 +179,7 @@ class EventServer:
         else:
             await self._serve_client(connection, name)
             return
-        self.metrics.closed[connection.close_code or 1006] += 1
+        self.metrics.closed[ended_with(connection)] += 1
 
     async def _serve_client(self, connection: ServerConnection, subprotocol: str) -> None:
         settings = self.settings
