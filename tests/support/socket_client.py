@@ -117,8 +117,8 @@ class SocketFinger:
         self.down_ns = 0
         self.frame = 0
 
-    def publish(self, *types: EventType) -> None:
-        """One frame with events of these types."""
+    def publish(self, *types: EventType) -> int:
+        """One frame with events of these types; its time."""
         self.frame += 1
         time_ns = now_ns()
         if EventType.DOWN in types:
@@ -134,3 +134,4 @@ class SocketFinger:
             for event_type in types
         ]
         self.server.publish(self.frame, time_ns, events)
+        return time_ns
