@@ -159,7 +159,7 @@ def probed(session: Session, clock: ClockOffset, dice: random.Random, sent_ns: i
 
 
 def clock() -> None:
-    """A thousand clients that probe by the rule in PROTOCOL.md; the true offset is 0."""
+    """A thousand clients that probe by the rule in proto/PROTOCOL.md; the true offset is 0."""
     dice, errors_ns = random.Random(1), {count: list[int]() for count in PROBES}
     for _ in range(1000):
         session, estimate = Session(Journal(1), SUBPROTOCOLS["egotouch.v1.pb"], 0), ClockOffset()
