@@ -29,9 +29,24 @@ def add_command(subparsers: Subparsers, name: str, summary: str, examples: str) 
     return parser
 
 
+SOURCE_HELP = "camera index (0), URL, video, image, folder of images, recording or script"
+
+
 def add_source_options(parser: argparse.ArgumentParser) -> None:
     """SOURCE, --fps and --size."""
-    parser.add_argument("source", metavar="SOURCE", help="camera index (0), URL, video, image, folder of images, recording or script")
+    parser.add_argument("source", metavar="SOURCE", help=SOURCE_HELP)
+    add_picture_options(parser)
+
+
+def add_named_source_options(parser: argparse.ArgumentParser) -> None:
+    """SOURCE or --source SOURCE, --fps and --size; the handler has to refuse a missing source."""
+    parser.add_argument("source", metavar="SOURCE", nargs="?", default=argparse.SUPPRESS, help=SOURCE_HELP)
+    parser.add_argument("--source", metavar="SOURCE", help="the same")
+    add_picture_options(parser)
+
+
+def add_picture_options(parser: argparse.ArgumentParser) -> None:
+    """--fps and --size."""
     parser.add_argument("--fps", type=positive_float, help="rate of a folder (default 30), in place of a video's own, or asked of a camera")
     parser.add_argument("--size", type=size_px, metavar="WxH", help="image size to ask of a camera, for example 1280x720")
 

@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING, Any
 from egotouch_sdk.cli.options import (
     Subparsers,
     add_command,
+    add_named_source_options,
     add_pipeline_options,
-    add_source_options,
     config_from,
     engine_from,
     open_from,
@@ -62,7 +62,7 @@ ALL_INTERFACES = ""
 def add_parser(subparsers: Subparsers) -> None:
     """Add `serve` to the command line."""
     parser = add_command(subparsers, "serve", "touch events over WebSocket, with a live page in the browser", EXAMPLES + NOTES)
-    add_source_options(parser)
+    add_named_source_options(parser)
     add_pipeline_options(parser)
     parser.add_argument("--once", action="store_true", help="play a source that ends once, and stop then; else it begins again")
     add_server_options(parser)
@@ -89,6 +89,8 @@ def run(options: argparse.Namespace) -> int:
     """Serve until Ctrl-C, or with --once until the source ends."""
     from egotouch_sdk.cli.main import EXIT_INTERRUPTED
 
+    if options.source is None:
+        raise ConfigError("egotouch serve needs a SOURCE", hint="Give a camera (0), a file, simulator or client. See: egotouch serve --help")
     lan = _prepare_lan(options)
     source, push = _open(options)
     with source:

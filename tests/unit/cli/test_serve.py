@@ -15,7 +15,7 @@ from websockets.asyncio.client import connect
 from websockets.exceptions import ConnectionClosed
 from websockets.typing import Subprotocol
 
-from egotouch_sdk.cli.main import main
+from egotouch_sdk.cli.main import build_parser, main
 from egotouch_sdk.touch_event import CancelReason, EventType
 from egotouch_sdk.wire.gen import egotouch_pb2 as pb
 from tests.support.client_model import ClientModel
@@ -88,3 +88,13 @@ def test_mistakes_are_one_line_with_a_next_step(arguments: list[str], words: str
     assert main(["serve", *arguments]) == 1
     said = capsys.readouterr().err
     assert words in said and said.count("\n") == 1
+
+
+@pytest.mark.parametrize("words", [["client"], ["--source", "client"], ["--port", "0", "client"]])
+def test_the_source_may_be_named(words: list[str]) -> None:
+    assert build_parser().parse_args(["serve", *words]).source == "client"
+
+
+def test_a_missing_source_is_said(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["serve", "--port", "0"]) == 1
+    assert "needs a SOURCE" in capsys.readouterr().err
