@@ -16,18 +16,13 @@ from egotouch_sdk.state import Thresholds
 __all__ = ["FrameSource", "ObservationSource", "SourceWarning"]
 
 
-@runtime_checkable
-class FrameSource(Protocol):
-    """An iterable of frames that is closed after use; works in a `with` statement.
-
-    Timestamps rise strictly. Iterating raises `SourceError` when frames stop coming for any other reason than the end of a file,
-    and `FrameError` for an image that no stage can work on. A property is None where the source does not know it.
-    """
+class _Source(Protocol):
+    """What is known of any source; it works in a `with` statement. A property is None where the source does not know it."""
 
     @property
     @abstractmethod
     def is_live(self) -> bool:
-        """True when frames are lost unless they are taken in time."""
+        """True when items come at the speed of the clock, and are lost unless they are taken in time."""
 
     @property
     @abstractmethod
@@ -50,10 +45,6 @@ class FrameSource(Protocol):
         """Number of frames as announced."""
 
     @abstractmethod
-    def __iter__(self) -> Iterator[Frame]:
-        """Yield frames in capture order."""
-
-    @abstractmethod
     def close(self) -> None:
         """Release the device or file; may be called twice."""
 
@@ -65,7 +56,20 @@ class FrameSource(Protocol):
 
 
 @runtime_checkable
-class ObservationSource(Protocol):
+class FrameSource(_Source, Protocol):
+    """An iterable of frames that is closed after use.
+
+    Timestamps rise strictly. Iterating raises `SourceError` when frames stop coming for any other reason than the end of a file,
+    and `FrameError` for an image that no stage can work on.
+    """
+
+    @abstractmethod
+    def __iter__(self) -> Iterator[Frame]:
+        """Yield frames in capture order."""
+
+
+@runtime_checkable
+class ObservationSource(_Source, Protocol):
     """An iterable of what perception found in each frame, closed after use: a recording or a simulator.
 
     An `EventEngine` turns its observations into events, where a `FrameSource` needs a whole `TouchPipeline`. Otherwise the same
@@ -82,41 +86,6 @@ class ObservationSource(Protocol):
     def thresholds(self) -> Thresholds | None:
         """Touch thresholds of the model behind the observations; None where no model was."""
 
-    @property
-    @abstractmethod
-    def is_live(self) -> bool:
-        """True when observations come at the speed of the clock."""
-
-    @property
-    @abstractmethod
-    def width_px(self) -> int | None:
-        """Width in pixels of the image that was observed."""
-
-    @property
-    @abstractmethod
-    def height_px(self) -> int | None:
-        """Height in pixels of the image that was observed."""
-
-    @property
-    @abstractmethod
-    def fps(self) -> float | None:
-        """Observations per second as announced."""
-
-    @property
-    @abstractmethod
-    def frame_count(self) -> int | None:
-        """Number of observations, where it is known beforehand."""
-
     @abstractmethod
     def __iter__(self) -> Iterator[FrameObservation]:
         """Yield observations in capture order."""
-
-    @abstractmethod
-    def close(self) -> None:
-        """Release the file; may be called twice."""
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
-        self.close()
