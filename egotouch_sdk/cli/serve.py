@@ -90,7 +90,7 @@ def run(options: argparse.Namespace) -> int:
     from egotouch_sdk.cli.main import EXIT_INTERRUPTED
 
     if options.source is None:
-        raise ConfigError("egotouch serve needs a SOURCE", hint="Give a camera (0), a file, simulator or client. See: egotouch serve --help")
+        raise ConfigError("egotouch serve needs a SOURCE", hint="Give a camera (0), a file, simulator or client")
     lan = _prepare_lan(options)
     source, push = _open(options)
     with source:
