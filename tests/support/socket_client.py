@@ -51,7 +51,7 @@ class SocketClient:
     async def open(self, **options: Any) -> None:
         """Open the WebSocket and say nothing."""
         offered = options.pop("subprotocols", [Subprotocol(self._subprotocol)])
-        url = f"ws://127.0.0.1:{self.server.port}/"
+        url = f"{'wss' if self.server.settings.tls else 'ws'}://127.0.0.1:{self.server.port}/"
         self.connection = await connect(url, subprotocols=offered, compression=None, max_size=None, **options)
         _opened.append(self.connection)
 
