@@ -14,7 +14,7 @@ from egotouch_sdk.config import HostConfig
 from egotouch_sdk.host_frame.locate import PALM_MM
 from egotouch_sdk.joints import Finger, HandJoint, Handedness
 from egotouch_sdk.observation import HandObservation, HostPoint, TouchPair
-from egotouch_sdk.surface import Surface
+from egotouch_sdk.surface import surface_at
 
 Floats = npt.NDArray[np.float64]
 
@@ -52,7 +52,7 @@ def locate_exact(pair: TouchPair, finger: Finger, config: HostConfig, *, mirrore
     bone = (pair.touching.world_mm[finger.tip] - pair.touching.world_mm[finger.dip]).astype(np.float64)
     bone /= max(float(np.linalg.norm(bone)), 1e-9)
     pitch_rad = min(max(asin(min(max(-float(bone @ outward), -1.0), 1.0)), 0.0), pi / 2)
-    return HostPoint(_surface(y_mm, shows_palm), x_mm, y_mm, pitch_rad, atan2(float(bone @ across), float(bone @ along)))
+    return HostPoint(surface_at(y_mm, palm_side=shows_palm), x_mm, y_mm, pitch_rad, atan2(float(bone @ across), float(bone @ along)))
 
 
 def _host_axes(host: HandObservation) -> Floats | None:
@@ -67,12 +67,6 @@ def _host_axes(host: HandObservation) -> Floats | None:
         return None
     across /= width
     return np.stack([across, along, np.cross(across, along)])
-
-
-def _surface(y_mm: float, shows_palm: bool) -> Surface:
-    if y_mm < 0:
-        return Surface.INNER_FOREARM if shows_palm else Surface.OUTER_FOREARM
-    return Surface.PALM if shows_palm else Surface.BACK_OF_HAND
 
 
 def _px_per_mm(hand: HandObservation) -> float:

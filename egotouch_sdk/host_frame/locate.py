@@ -13,7 +13,7 @@ from egotouch_sdk.host_frame.features import SeenTip, see
 from egotouch_sdk.host_frame.linear_map import LinearMap
 from egotouch_sdk.joints import Finger, HandJoint, Handedness
 from egotouch_sdk.observation import HandObservation, HostPoint, TouchPair
-from egotouch_sdk.surface import Surface
+from egotouch_sdk.surface import Surface, surface_at
 
 DEFAULTS = HostConfig()
 
@@ -58,9 +58,7 @@ def locate(
 
 def surface_under(seen: SeenTip, *, shows_palm: bool) -> Surface:
     """The skin under a fingertip: the forearm begins at the wrist as seen."""
-    if seen.tip[1] < 0:
-        return Surface.INNER_FOREARM if shows_palm else Surface.OUTER_FOREARM
-    return Surface.PALM if shows_palm else Surface.BACK_OF_HAND
+    return surface_at(seen.tip[1], palm_side=shows_palm)
 
 
 def shows_palm(host: HandObservation, *, mirrored: bool = False) -> bool:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from egotouch_sdk.simulator.live import LiveSimulation
 from egotouch_sdk.simulator.live_source import LiveSource, fingers_from_proto
 from egotouch_sdk.simulator.observe import observe
-from egotouch_sdk.simulator.scene import SimulatedFinger, SimulatedScene, SimulatedView, place_at, surface_at
+from egotouch_sdk.simulator.scene import SimulatedFinger, SimulatedScene, SimulatedView, place_at
 from egotouch_sdk.simulator.script_source import ScriptSource, shipped_script, shipped_scripts
 
 __all__ = [
@@ -24,5 +24,4 @@ __all__ = [
     "place_at",
     "shipped_script",
     "shipped_scripts",
-    "surface_at",
 ]

@@ -12,20 +12,10 @@ from egotouch_sdk.errors import FrameError
 from egotouch_sdk.joints import Finger, Handedness
 from egotouch_sdk.observation import FORCE_MAX_N
 from egotouch_sdk.simulator.hand_shape import Points
-from egotouch_sdk.surface import Surface
-
-#: The forearm reaches this far behind the wrist, in millimetres (three palms, as the gate's default).
-FOREARM_MM: Final = 249.0
+from egotouch_sdk.surface import Surface, surface_at
 
 #: Surfaces that are seen together: those of the palm's side of a limb; the others are those of its back.
 PALM_SIDE: Final = frozenset({Surface.PALM, Surface.INNER_FOREARM})
-
-
-def surface_at(y_mm: float, *, palm_side: bool) -> Surface:
-    """The surface at a place of a limb that shows its palm's side or its back."""
-    if y_mm < 0:
-        return Surface.INNER_FOREARM if palm_side else Surface.OUTER_FOREARM
-    return Surface.PALM if palm_side else Surface.BACK_OF_HAND
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,9 +12,10 @@ from egotouch_sdk.errors import ConfigError
 from egotouch_sdk.joints import FINGERS, Finger, Handedness
 from egotouch_sdk.simulator.acts import Act, FingerAct, Stall, Swap, Vanish
 from egotouch_sdk.simulator.motion import Point, minimum_jerk
-from egotouch_sdk.simulator.scene import SimulatedFinger, SimulatedScene, surface_at
+from egotouch_sdk.simulator.scene import SimulatedFinger, SimulatedScene
 from egotouch_sdk.simulator.script import Script
 from egotouch_sdk.simulator.stroke import Stroke, stroke_of
+from egotouch_sdk.surface import surface_at
 
 # All of these are our choice.
 #: Acts follow one another at this distance: more than a double tap's 300 ms, so that two taps are two.

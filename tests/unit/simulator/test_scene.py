@@ -9,8 +9,8 @@ import pytest
 
 from egotouch_sdk.errors import FrameError
 from egotouch_sdk.joints import Finger
-from egotouch_sdk.simulator import SimulatedFinger, SimulatedScene, SimulatedView, surface_at
-from egotouch_sdk.surface import Surface
+from egotouch_sdk.simulator import SimulatedFinger, SimulatedScene, SimulatedView
+from egotouch_sdk.surface import Surface, surface_at
 
 PLACE: dict[str, Any] = {"surface": Surface.PALM, "x_mm": 0.0, "y_mm": 40.0}
 
