@@ -16,7 +16,7 @@ PACKAGE = Path(__file__).parents[2] / "egotouch_sdk"
 RANKS: tuple[frozenset[str], ...] = (
     frozenset({"errors", "joints", "surface", "clock"}),
     frozenset({"frame", "observation", "touch_event", "config_layers", "config_presets"}),
-    frozenset({"frame_observation", "config", "hand_geometry", "model_input", "model_store", "inference", "events"}),
+    frozenset({"frame_observation", "config", "hand_geometry", "model_input", "model_store", "inference", "events", "study_data"}),
     frozenset({"frame_result"}),
     frozenset({"wire", "listeners"}),
     frozenset({"hands", "gate", "patches", "touch", "filters", "host_frame", "state", "gestures", "skin"}),
