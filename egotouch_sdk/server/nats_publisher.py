@@ -22,6 +22,9 @@ LAST_PAUSE_S = 2.0
 #: A server that does not confirm within this time is given up, and connected to anew.
 CONFIRM_PATIENCE_S = 2
 CONNECT_PATIENCE_S = 2
+#: After this time with nothing to send the server is asked for a sign of life, so that a dead link is known before the next touch
+#: (the idle heartbeat of the event server).
+QUIET_S = 2
 #: User and password (`user:password`), or a token, where the URL has none; unlike a URL it is in no list of processes.
 CREDENTIALS_VARIABLE = "EGOTOUCH_NATS_CREDENTIALS"
 
@@ -74,16 +77,18 @@ class NatsPublisher:
     """Sends a `Publication` to one NATS server and comes back to it whenever it is there; made and used on the event loop's thread.
 
     Each round of messages is confirmed by the server before the next is sent, so that what cannot be sent waits here, where it
-    merges or gets too old, and nowhere else. Raises `MissingExtraError` without the extra `nats`.
+    merges or gets too old, and nowhere else. A server that does not answer within `patience_s` is given up, also when there is nothing
+    to send. Raises `MissingExtraError` without the extra `nats`.
     """
 
-    def __init__(self, address: NatsAddress, publication: Publication) -> None:
+    def __init__(self, address: NatsAddress, publication: Publication, patience_s: int = CONFIRM_PATIENCE_S) -> None:
         try:
             import nats  # noqa: F401
         except ImportError as error:
             raise MissingExtraError("publishing to NATS", "nats") from error
         self._address = address
         self._publication = publication
+        self._patience_s = patience_s
         self._wake = asyncio.Event()
         self._stopping = False
         self._problem = ""
@@ -104,7 +109,7 @@ class NatsPublisher:
                 self._stopping = True
                 self._wake.set()
                 with contextlib.suppress(TimeoutError):
-                    await asyncio.wait_for(asyncio.shield(task), CONFIRM_PATIENCE_S)
+                    await asyncio.wait_for(asyncio.shield(task), self._patience_s)
             task.cancel()
             with contextlib.suppress(asyncio.CancelledError):
                 await task
@@ -162,13 +167,12 @@ class NatsPublisher:
         self._wake.set()
         try:
             while not client.is_closed:
-                await self._wake.wait()
-                self._wake.clear()
+                quiet = not await self._woken()
                 messages = self._publication.take(now_ns())
                 for subject, payload in messages:
                     await client.publish(subject, payload)
-                if messages:
-                    await client.flush(CONFIRM_PATIENCE_S)
+                if messages or quiet:
+                    await client.flush(self._patience_s)  # a ping and its answer
                     self._publication.confirm()
                 elif self._stopping:
                     break
@@ -179,6 +183,16 @@ class NatsPublisher:
         finally:
             self._publication.disconnect()
             await _close(client)
+
+    async def _woken(self) -> bool:
+        """Wait for something to do; False after a quiet time."""
+        try:
+            async with asyncio.timeout(QUIET_S):
+                await self._wake.wait()
+        except TimeoutError:
+            return False
+        self._wake.clear()
+        return True
 
     async def _on_closed(self) -> None:
         self._wake.set()

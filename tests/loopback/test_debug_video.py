@@ -13,13 +13,13 @@ import pytest
 from egotouch_sdk.frame import Frame
 from egotouch_sdk.server import EventServer
 from egotouch_sdk.server.debug_video import DebugVideo
-from tests.support.socket_client import PATIENCE_S, running_server
+from tests.support.socket_client import running_server
 
 TOKEN = "0123456789abcdef" * 2
 
 
 def run(test: Coroutine[Any, Any, None]) -> None:
-    asyncio.run(asyncio.wait_for(test, PATIENCE_S))
+    asyncio.run(asyncio.wait_for(test, 120))
 
 
 async def ask(server: EventServer, *headers: str) -> tuple[int, bytes]:

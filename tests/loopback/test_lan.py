@@ -45,7 +45,7 @@ SUBPROTOCOL = Subprotocol("egotouch.v1.pb")
 
 
 def run(test: Coroutine[Any, Any, None]) -> None:
-    asyncio.run(asyncio.wait_for(test, 30))
+    asyncio.run(asyncio.wait_for(test, 120))
 
 
 def trust(folder: Path) -> ssl.SSLContext:

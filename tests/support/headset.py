@@ -97,7 +97,7 @@ class Headset(SocketClient):
 
 async def frames_done(server: EventServer, count: int) -> None:
     """Wait until the server has worked through so many frames."""
-    async with asyncio.timeout(20):
+    async with asyncio.timeout(60):
         while server.metrics.frames < count:
             await asyncio.sleep(0.001)
 

@@ -13,7 +13,8 @@ from websockets.exceptions import ConnectionClosed
 from websockets.typing import Subprotocol
 
 from egotouch_sdk.clock import now_ns
-from egotouch_sdk.server import EventServer, Settings
+from egotouch_sdk.server import EventServer, Limits, Settings
+from egotouch_sdk.server.limits import SECOND_NS
 from egotouch_sdk.touch_event import EventType
 from egotouch_sdk.wire import from_json, to_json
 from egotouch_sdk.wire.gen import egotouch_pb2 as pb
@@ -23,13 +24,15 @@ from tests.support.events import make_event
 _opened: list[ClientConnection] = []
 
 #: Nothing in these tests takes long; what takes longer has failed.
-PATIENCE_S = 10.0
+PATIENCE_S = 30.0
+#: A machine that holds a test up for a while makes nothing late and nobody slow.
+PATIENT = Limits(hello_timeout_ns=30 * SECOND_NS, input_ttl_ns=30 * SECOND_NS, patience_ns=30 * SECOND_NS, journal_ns=120 * SECOND_NS)
 
 
 @asynccontextmanager
 async def running_server(settings: Settings | None = None, **changes: Any) -> AsyncIterator[EventServer]:
-    """A server on a free port of the loopback address."""
-    server = EventServer(replace(settings or Settings(), port=0, **changes))
+    """A server on a free port of the loopback address, patient unless told otherwise."""
+    server = EventServer(replace(settings or Settings(limits=PATIENT), port=0, **changes))
     await server.start()
     try:
         yield server
