@@ -28,6 +28,7 @@ from egotouch_sdk.server.network import host_names, lan_addresses
 from egotouch_sdk.touch_event import EventType as E
 from egotouch_sdk.wire.gen import egotouch_pb2 as pb
 from tests.support.client_model import ClientModel
+from tests.support.ports import free_port
 from tests.support.socket_client import PATIENCE_S, SocketClient, SocketFinger, running_server
 
 pytest.importorskip("cryptography", reason="needs the extra lan")
@@ -272,7 +273,7 @@ class LanCommand:
     def stop(self) -> tuple[int, str]:
         """Ctrl-C; the exit code and what it said on stderr."""
         self._process.send_signal(signal.SIGINT)
-        rest, errors = self._process.communicate(timeout=30)
+        rest, errors = self._process.communicate(timeout=60)
         self.said += rest
         return self._process.returncode, errors
 
@@ -282,18 +283,11 @@ class LanCommand:
         self._process.communicate()
 
 
-@pytest.fixture
-def free_port() -> int:
-    """A port that was free just now: `--lan` wants one that can be opened in a firewall, so not 0."""
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return int(probe.getsockname()[1])
-
-
 @pytest.mark.skipif(not lan_addresses(), reason="this machine is on no network")
-def test_the_command_tells_its_code_once_and_its_token_never_and_keeps_both_token_and_certificate(tmp_path: Path, free_port: int) -> None:
+def test_the_command_tells_its_code_once_and_its_token_never_and_keeps_both_token_and_certificate(tmp_path: Path) -> None:
+    port = free_port()  # `--lan` wants one that can be opened in a firewall, so not 0
     config = tmp_path / "config"
-    served = LanCommand(config, free_port)
+    served = LanCommand(config, port)
     try:
         code, fingerprint = served.found(r"^  pairing    (\d{6})  "), served.found(r"^  SHA-256    ([0-9a-f]{64})  ")
         paired = asyncio.run(served.hello(pairing_code=code))
@@ -312,7 +306,7 @@ def test_the_command_tells_its_code_once_and_its_token_never_and_keeps_both_toke
     kept = {path.name: path.read_bytes() for path in config.iterdir()}
     assert set(kept) == {CERTIFICATE_FILE, KEY_FILE, TOKEN_FILE}
     assert {stat.S_IMODE(path.stat().st_mode) for path in config.iterdir()} == {0o600} and stat.S_IMODE(config.stat().st_mode) == 0o700
-    again = LanCommand(config, free_port)
+    again = LanCommand(config, port)
     try:
         assert again.found(r"^  SHA-256    ([0-9a-f]{64})  ") == fingerprint
         assert isinstance(asyncio.run(again.hello(token=paired.token)), pb.Welcome)

@@ -141,7 +141,7 @@ def test_a_listener_may_stop_the_run() -> None:
 
 def test_a_stalled_camera_cancels_and_goes_on() -> None:
     finger = PlayedFinger(is_live=True)
-    with EgoTouch(finger, TouchConfig(state={"stall_ms": 100}, debug=True)) as et:
+    with EgoTouch(finger, TouchConfig(state={"stall_ms": 400}, debug=True)) as et:
         heard = Heard(et)
         et.start()
         finger.touch()

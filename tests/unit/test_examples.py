@@ -12,6 +12,8 @@ ROOT = Path(__file__).parents[2]
 DEMO = ROOT / "egotouch_sdk" / "assets" / "demo.mp4"
 #: Two touches of the index finger lie in the first 50 frames of the clip.
 FRAMES = 50
+#: What a busy machine may bring an example to say: printing can take longer than a listener should.
+SLOW_LISTENER = "while it runs, moves are merged"
 
 #: What each example prints, and the rate at which its cut plays: frames that are pushed live must not outrun a slow machine.
 SHOWS = {
@@ -45,5 +47,6 @@ def test_the_example_shows_touches(example: str, tmp_path: Path) -> None:
     environment = {**os.environ, "PYTHONPATH": str(ROOT), "OMP_NUM_THREADS": "1"}
     command = [sys.executable, ROOT / "examples" / example, video]
     done = subprocess.run(command, capture_output=True, text=True, timeout=120, check=False, env=environment)
-    assert (done.returncode, done.stderr) == (0, "")
+    assert done.returncode == 0
+    assert [line for line in done.stderr.splitlines() if SLOW_LISTENER not in line] == []
     assert [text for text in texts if text not in done.stdout] == []

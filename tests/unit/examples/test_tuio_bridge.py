@@ -39,7 +39,7 @@ class Receiver:
     def port(self) -> int:
         return int(self.socket.getsockname()[1])
 
-    def receive(self, timeout_s: float = 5.0) -> list[list[object]]:
+    def receive(self, timeout_s: float = 30.0) -> list[list[object]]:
         """The messages of the next bundle, taken in as a receiver does."""
         self.socket.settimeout(timeout_s)
         datagram = self.socket.recv(65536)
@@ -83,9 +83,11 @@ def tuio(monkeypatch: pytest.MonkeyPatch) -> Iterator[ModuleType]:
 class Bridge:
     """Fingers over the palm screen, connected to a receiver by the example's own sender."""
 
-    def __init__(self, tuio: ModuleType, receiver: Receiver) -> None:
+    def __init__(self, tuio: ModuleType, receiver: Receiver, refresh_s: float = 3600.0) -> None:
+        app = import_module("app")
+        app.REFRESH_S = refresh_s
         self.receiver = receiver
-        self.sender = import_module("app").TuioSender(tuio.TuioCursors(tuio.SCREENS[Surface.PALM]), ("127.0.0.1", receiver.port))
+        self.sender = app.TuioSender(tuio.TuioCursors(tuio.SCREENS[Surface.PALM]), ("127.0.0.1", receiver.port))
         self.time_ns = 0
 
     def send(self, event_type: EventType, x_mm: float, y_mm: float, **fields: object) -> TouchEvent:
@@ -161,9 +163,11 @@ def test_beyond_the_edge_a_cursor_stays_at_the_edge_and_on_the_other_side_it_wai
     bridge.expect_nothing_else()
 
 
-def test_what_is_held_is_sent_again(bridge: Bridge, receiver: Receiver) -> None:
+def test_what_is_held_is_sent_again(tuio: ModuleType, receiver: Receiver) -> None:
+    bridge = Bridge(tuio, receiver, refresh_s=1.0)
     bridge.send(EventType.DOWN, -4, 46)
-    receiver.receive()
+    while not receiver.alive:
+        receiver.receive()
     assert receiver.receive() == [["source", "egotouch"], ["alive", 1], ["set", 1, 0.5, 0.5, 0, 0, 0], ["fseq", -1]]
     bridge.sender.close()
 

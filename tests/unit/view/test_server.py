@@ -18,7 +18,7 @@ def server() -> Iterator[ViewServer]:
 
 
 def get(server: ViewServer, path: str, **headers: str) -> http.client.HTTPResponse:
-    connection = http.client.HTTPConnection(urlsplit(server.url).netloc, timeout=10)
+    connection = http.client.HTTPConnection(urlsplit(server.url).netloc, timeout=30)
     connection.request("GET", path, headers=headers)
     return connection.getresponse()
 
@@ -35,7 +35,7 @@ def test_the_page_shows_the_stream(server: ViewServer) -> None:
 
 def test_the_stream_delivers_the_picture(server: ViewServer) -> None:
     with get(server, "/stream.mjpg") as response:
-        assert server.wait_for_viewer(10)
+        assert server.wait_for_viewer(30)
         server.show(np.full((48, 64, 3), (10, 120, 240), np.uint8))
         head = [response.readline() for _ in range(4)]
         assert head[1] == b"Content-Type: image/jpeg\r\n"

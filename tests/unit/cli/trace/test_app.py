@@ -47,7 +47,7 @@ def drive(app: TraceApp, steps: Callable[[Pilot[int]], Awaitable[None]], columns
 
 async def until(pilot: Pilot[int], condition: Callable[[], bool]) -> None:
     """Let the app go on until something is so."""
-    async with asyncio.timeout(10.0):
+    async with asyncio.timeout(60.0):
         while not condition():
             await pilot.pause(0.01)
 
