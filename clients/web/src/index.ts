@@ -1,1 +1,10 @@
+export { EgoTouchClient, type ClientOptions, type ClientStats, type StateEvent } from "./client.js";
+export type { ConnectionState, Subscribe } from "./core/session.js";
+export { GrammarVerifier, type Violation } from "./core/verifier.js";
+export { EgoTouchError, type ErrorCode } from "./errors.js";
 export * from "./events.js";
+export type { EventFilter } from "./listeners/filters.js";
+export type { Subscription } from "./listeners/registry.js";
+export type { ErrorEvent, TouchListener, TrackingState } from "./listeners/touch_listener.js";
+export { sameOrigin, type Clock, type SocketConstructor } from "./platform.js";
+export type { ClientBody } from "./wire/messages.js";
