@@ -1,0 +1,1 @@
+export { SkinSurface, type SkinSurfaceOptions } from "./skin_surface.js";
