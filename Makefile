@@ -12,7 +12,7 @@ PYTEST_ARGS ?= -n 2 --dist loadfile -q
 # where PyTorch, or Playwright and Chromium, are installed).
 EXTRAS ?= dev,synthetic
 ifdef CI
-EXTRAS := browser,dev,synthetic,train
+EXTRAS := browser,dev,evaluation,synthetic,train
 TORCH  ?= torch==2.13.0
 endif
 

@@ -20,7 +20,11 @@ EXAMPLES = """\
   egotouch doctor --json       the same for programs
 """
 RUNTIME_PACKAGES = ("numpy", "onnxruntime", "opencv-python-headless", "protobuf", "pydantic", "websockets")
-EXTRAS = {"synthetic": ("av", "mitsuba", "pygltflib", "scipy"), "train": ("torch", "lightning", "onnx")}
+EXTRAS = {
+    "synthetic": ("av", "mitsuba", "pygltflib", "scipy"),
+    "train": ("torch", "lightning", "onnx"),
+    "evaluation": ("pingouin", "pyarrow"),
+}
 #: Camera indexes tried where the system does not list its cameras.
 CAMERAS_TRIED = 3
 

@@ -39,6 +39,7 @@ COMMANDS = (
 #: Import names of optional packages, by the extra that brings them.
 EXTRA_PACKAGES = {
     "debug": ("rich", "textual"),
+    "evaluation": ("pingouin", "pyarrow"),
     "lan": ("cryptography", "segno"),
     "mdns": ("zeroconf",),
     "recording": ("lz4", "mcap", "zstandard"),

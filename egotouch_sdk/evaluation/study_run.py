@@ -1,0 +1,100 @@
+"""A round through the touch model, the three-frame median and the touch state machine, as in live use. No I/O, no clock."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from egotouch_sdk.config import StateConfig
+from egotouch_sdk.filters import MedianFilter
+from egotouch_sdk.observation import FingertipPatch, HostPoint, TouchEstimate
+from egotouch_sdk.patches import PATCH_PX_PER_MM
+from egotouch_sdk.state import FingertipSample, PointerState, Thresholds, TouchStateMachine
+from egotouch_sdk.study_data import StudyRound
+from egotouch_sdk.touch import TouchModel
+
+#: Patches shown to the model at once (our choice; more is no faster on two cores).
+BATCH = 64
+_HAND_ID = 1
+_TIP_PX = (0.0, 0.0)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Answers:
+    """What was told in each frame of a round.
+
+    `probability` and `force_n` (T,) come from the model, `median_probability` and `median_force_n` (T,) from the causal three-frame
+    median, which shows everything one frame late; all are nan where the gate was closed. `live` (T,) is True from DOWN to UP or
+    CANCEL of the state machine.
+    """
+
+    probability: npt.NDArray[np.float64]
+    force_n: npt.NDArray[np.float64]
+    median_probability: npt.NDArray[np.float64]
+    median_force_n: npt.NDArray[np.float64]
+    live: npt.NDArray[np.bool_]
+
+
+def answer(study_round: StudyRound, model: TouchModel, config: StateConfig | None = None) -> Answers:
+    """Everything the product would have told about a round; thresholds are the model's own unless `config` sets others."""
+    own = Thresholds(model.manifest.down_probability, model.manifest.up_probability)
+    return follow(study_round, estimate_frames(study_round, model), own, config or StateConfig())
+
+
+def estimate_frames(study_round: StudyRound, model: TouchModel) -> dict[int, TouchEstimate]:
+    """The model's answer for every frame whose gate is open, by frame number."""
+    meta = study_round.meta
+    shown = {
+        int(frame): FingertipPatch(
+            hand_id=_HAND_ID,
+            handedness=meta.touching_hand,
+            finger=meta.finger,
+            tip_px=_TIP_PX,
+            px_per_mm=PATCH_PX_PER_MM,
+            r_palms=float(study_round.polar[frame, 0]),
+            theta_rad=float(study_round.polar[frame, 1]),
+            image=study_round.patches[frame],
+        )
+        for frame in np.flatnonzero(study_round.gate)
+    }
+    patches = list(shown.values())
+    estimates = [told for start in range(0, len(patches), BATCH) for told in model.estimate(patches[start : start + BATCH])]
+    return dict(zip(shown, estimates, strict=True))
+
+
+def follow(study_round: StudyRound, estimates: dict[int, TouchEstimate], thresholds: Thresholds, config: StateConfig) -> Answers:
+    """Run estimates by frame number through the median and the state machine; frames without one count as not seen."""
+    thresholds = thresholds.overridden_by(config)
+    median, machine = MedianFilter(config.coast_frames), TouchStateMachine(config, thresholds)
+    stall_ns, last_ns = config.stall_ms * 1e6, None
+    frames = len(study_round.timestamp_ns)
+    told = np.full((4, frames), np.nan)
+    live = np.zeros(frames, bool)
+    for frame, timestamp_ns in enumerate(study_round.timestamp_ns.tolist()):
+        if last_ns is not None and timestamp_ns - last_ns > stall_ns:
+            median.reset()
+        last_ns = timestamp_ns
+        raw = [estimates[frame]] if frame in estimates else []
+        filtered = median.apply(raw)
+        machine.step([_sample(study_round, estimate) for estimate in filtered], timestamp_ns)
+        for own, smooth in zip(raw, filtered, strict=True):
+            told[:, frame] = own.touch_probability, own.force_n, smooth.touch_probability, smooth.force_n
+        live[frame] = any(state is PointerState.TOUCH for state, _ in machine.pointers.values())
+    return Answers(told[0], told[1], told[2], told[3], live)
+
+
+def _sample(study_round: StudyRound, estimate: TouchEstimate) -> FingertipSample:
+    meta = study_round.meta
+    return FingertipSample(
+        hand_id=estimate.hand_id,
+        handedness=meta.touching_hand,
+        finger=estimate.finger,
+        touch_probability=estimate.touch_probability,
+        force_n=estimate.force_n,
+        tip_px=_TIP_PX,
+        px_per_mm=PATCH_PX_PER_MM,
+        image_xy=(0.5, 0.5),
+        point=HostPoint(meta.place, 0.0, 0.0, 0.0, 0.0),
+    )

@@ -1,0 +1,30 @@
+from __future__ import annotations
+
+from math import isnan, sqrt
+from statistics import NormalDist
+
+import numpy as np
+import pytest
+
+from egotouch_sdk.evaluation.bootstrap import interval_of, interval_of_mean
+
+
+def test_the_interval_of_a_mean_is_the_normal_one_for_many_participants() -> None:
+    values = np.random.default_rng(1).normal(0.9, 0.03, 400)
+    half = NormalDist().inv_cdf(0.975) * values.std(ddof=1) / sqrt(400)
+    assert interval_of_mean(values.tolist()) == pytest.approx((values.mean() - half, values.mean() + half), abs=half * 0.15)
+
+
+def test_whole_units_are_drawn() -> None:
+    low, high = interval_of([[0.0] * 100, [1.0]], lambda units: float(np.mean([value for unit in units for value in unit])))
+    assert (low, high) == (0.0, 1.0)
+
+
+def test_the_same_draws_come_again_and_the_unknown_is_left_out() -> None:
+    values = [0.8, 0.9, float("nan"), 0.95]
+    assert interval_of_mean(values) == interval_of_mean(values) == interval_of_mean([0.8, 0.9, 0.95])
+
+
+def test_one_unit_has_no_interval() -> None:
+    assert all(isnan(bound) for bound in (*interval_of_mean([0.9]), *interval_of([1], lambda units: 1.0)))
+    assert all(isnan(bound) for bound in interval_of([1, 2], lambda units: float("nan"), draws=5))
