@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -11,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.spatial import cKDTree
 
-from egotouch_sdk.joints import Handedness
+from egotouch_sdk.joints import Finger, Handedness
 from egotouch_sdk.synthetic.assets import cache_dir
 from egotouch_sdk.synthetic.creases import carve_finger_creases, carve_palm, carve_wrist
 from egotouch_sdk.synthetic.hair import hair_cover, spots
@@ -24,7 +25,7 @@ from egotouch_sdk.synthetic.skin_side import Relief, SkinSide
 from egotouch_sdk.synthetic.skin_traits import SkinTraits, draw_traits
 
 #: Raise when the look of baked skin changes: cached identities of other versions are ignored.
-SKIN_VERSION = 1
+SKIN_VERSION = 3
 #: Share of the carved relief that is kept: at full strength renders showed twice the contrast of photographs.
 _RELIEF_SHARE = 0.85
 
@@ -74,21 +75,29 @@ class SkinIdentity:
         return self.traits.polish is not None
 
 
-def identity_path(seed: int, fitzpatrick: float, level: int = 4) -> Path:
-    """Where a baked identity is cached."""
+def identity_path(seed: int, traits: SkinTraits, level: int = 4) -> Path:
+    """Where the baked skin of person `seed` with `traits` is cached."""
     folder = cache_dir() / "skin"
     folder.mkdir(exist_ok=True)
-    return folder / f"v{SKIN_VERSION}-s{seed}-f{fitzpatrick:.2f}-l{level}.npz"
+    digest = hashlib.sha256(repr(traits).encode()).hexdigest()[:10]
+    return folder / f"v{SKIN_VERSION}-s{seed}-f{traits.fitzpatrick:.2f}-{digest}-l{level}.npz"
 
 
 def bake_identity(seed: int, fitzpatrick: float, level: int = 4) -> SkinIdentity:
-    """The skin of person `seed` with skin type `fitzpatrick` (1..6, fractions allowed), from the cache or baked now.
+    """The skin of person `seed` with skin type `fitzpatrick` (1..6, fractions allowed) and traits drawn from both.
 
-    Equal arguments give equal skin. `level` is the rig's number of subdivisions. Raises `ValueError` for a type outside 1..6,
-    `SourceError` and `MissingExtraError` when the hand meshes cannot be had.
+    See `bake_person`. Raises `ValueError` for a type outside 1..6.
     """
-    traits = draw_traits(seed, fitzpatrick)
-    path = identity_path(seed, fitzpatrick, level)
+    return bake_person(seed, draw_traits(seed, fitzpatrick), level)
+
+
+def bake_person(seed: int, traits: SkinTraits, level: int = 4) -> SkinIdentity:
+    """The skin of person `seed` with `traits`, from the cache or baked now.
+
+    Equal arguments give equal skin. `level` is the rig's number of subdivisions. Raises `SourceError` and `MissingExtraError` when
+    the hand meshes cannot be had.
+    """
+    path = identity_path(seed, traits, level)
     if not path.is_file():
         _store(path, {side: bake_side(HandRig(side, level), seed, traits) for side in Handedness})
     return _load(path, seed, level, traits)
@@ -112,7 +121,7 @@ def bake_side(rig: HandRig, seed: int, traits: SkinTraits) -> BakedSide:
     albedo = paint(side, traits, relief, nails, vein, pigment, hair)
     roughness = traits.roughness + 0.06 * side.noise(0.004, 420)
     roughness = roughness * (1 - nails.nail) + (0.2 if traits.polish is not None else 0.3) * nails.nail
-    height = _RELIEF_SHARE * relief.height_m + traits.fatness_m
+    height = _RELIEF_SHARE * relief.height_m + traits.fatness_m + traits.finger_fatness_m * _phalanges(rig)
     return BakedSide(
         vertices=(rig.vertices + rig.normals * height[:, None]).astype(np.float32),
         albedo=albedo.astype(np.float32),
@@ -139,6 +148,12 @@ def _veins(side: SkinSide, strength: float) -> Array:
     stretched = noise(points * [1, 1, 0.45], 0.011, side.seed + 405)
     ridge = np.exp(-(((stretched + 0.25 * side.noise(0.006, 406)) / 0.28) ** 2)) * smoothstep(-0.2, 0.3, side.noise(0.03, 407))
     return np.asarray(strength * ridge * np.where(points[:, 2] > 0.02, 1.0, 1 - side.palmar) * (points[:, 2] > -0.085))
+
+
+def _phalanges(rig: HandRig) -> Array:
+    """How much each vertex belongs to a phalanx, (n,) in 0..1; metacarpals and the forearm count as 0."""
+    joints = [joint for finger in Finger for joint in rig.finger_joint_ids(finger)[1:]]
+    return np.asarray(rig.weights[:, joints].sum(axis=1), np.float64).ravel()
 
 
 def _vertex_area_mm2(rig: HandRig) -> float:

@@ -71,10 +71,10 @@ def _nail_colour(traits: SkinTraits, nails: NailMasks) -> Array:
         return np.tile(np.array(traits.polish), (len(nails.nail), 1))
     tone = np.array(traits.tone)
     if traits.fitzpatrick < _DARK_SKIN:
-        bed, edge_share = 0.9 * (0.55 * tone + 0.45 * srgb_to_linear([196, 116, 118])), 0.45
+        bed, edge_share, lunula_share = 0.9 * (0.55 * tone + 0.45 * srgb_to_linear([196, 116, 118])), 0.45, 0.4
     else:
-        bed, edge_share = 0.8 * (0.72 * tone + 0.28 * srgb_to_linear([182, 112, 108])), 0.30
-    pale = 0.6 * bed + 0.4 * srgb_to_linear([226, 196, 186])
+        bed, edge_share, lunula_share = 0.85 * (0.84 * tone + 0.16 * srgb_to_linear([182, 112, 108])), 0.16, 0.12
+    pale = (1 - lunula_share) * bed + lunula_share * srgb_to_linear([226, 196, 186])
     edge = (1 - edge_share) * bed + edge_share * srgb_to_linear([222, 206, 188])
     colour = bed * (1 - nails.lunula[:, None]) + pale * nails.lunula[:, None]
     return np.asarray(colour * (1 - nails.edge[:, None]) + edge * nails.edge[:, None])

@@ -12,21 +12,24 @@ from egotouch_sdk.synthetic.srgb import srgb_to_linear
 FITZPATRICK_SRGB = np.array(
     [[238, 205, 188], [226, 183, 160], [205, 155, 127], [172, 122, 94], [126, 84, 63], [82, 54, 42]], dtype=np.float64
 )
+#: The asset's index finger is 13.4 mm wide at its last joint (measured on the mesh); adults' are 14 to 19 mm (our choice of range).
+MAX_FINGER_FATNESS_M = 1.8e-3
 
 
 @dataclass(frozen=True, slots=True)
 class SkinTraits:
     """One person's skin.
 
-    `fitzpatrick` 1..6; `tone` and `polish` linear RGB (polish None for bare nails); `scale` of the whole hand, `fatness_m`
-    added along the normals; `redness`, `creases`, `veins`, `mottle` relative strengths; `hair` 0..3; `nail_length` 0..1;
-    `roughness` of the surface 0..1.
+    `fitzpatrick` 1..6; `tone` and `polish` linear RGB (polish None for bare nails); `scale` of the whole hand, `fatness_m` added
+    along the normals, on the fingers also `finger_fatness_m`; `redness`, `creases`, `veins`, `mottle` relative strengths; `hair` 0..3;
+    `nail_length` 0..1; `roughness` of the surface 0..1.
     """
 
     fitzpatrick: float
     tone: tuple[float, float, float]
     scale: float
     fatness_m: float
+    finger_fatness_m: float
     redness: float
     creases: float
     veins: float
@@ -55,6 +58,7 @@ def draw_traits(seed: int, fitzpatrick: float) -> SkinTraits:
         tone=(float(tone[0]), float(tone[1]), float(tone[2])),
         scale=float(rng.uniform(0.88, 1.1)),
         fatness_m=float(rng.normal(0.35e-3, 0.5e-3)),
+        finger_fatness_m=float(np.random.default_rng([seed, 3]).uniform(0.0, MAX_FINGER_FATNESS_M)),
         redness=float(rng.uniform(0.5, 1.3)),
         creases=float(rng.uniform(0.5, 1.4)),
         veins=float(rng.uniform(0, 1) * (1 if fitzpatrick < 5 else 0.3)),

@@ -87,7 +87,7 @@ def test_bare_nail_is_darker_than_its_finger_on_light_skin(baked: dict[float, Sk
 
 def test_same_seed_same_skin_and_another_seed_another(own_cache: Path, baked: dict[float, SkinIdentity]) -> None:
     again, other = bake_identity(5, 2.5, LEVEL), bake_identity(6, 2.5, LEVEL)
-    assert identity_path(5, 2.5, LEVEL).parent == own_cache / "skin"
+    assert identity_path(5, draw_traits(5, 2.5), LEVEL).parent == own_cache / "skin"
     for side, skin in baked[2.5].sides.items():
         for name in ("vertices", "albedo", "roughness", "nail", "edge", "palmar"):
             np.testing.assert_array_equal(getattr(again.sides[side], name), getattr(skin, name))
@@ -97,9 +97,9 @@ def test_same_seed_same_skin_and_another_seed_another(own_cache: Path, baked: di
 
 def test_cached_identity_is_read_not_baked(own_cache: Path) -> None:
     first = bake_identity(7, 3.0, 1)
-    stamp = identity_path(7, 3.0, 1).stat().st_mtime_ns
+    stamp = identity_path(7, draw_traits(7, 3.0), 1).stat().st_mtime_ns
     second = bake_identity(7, 3.0, 1)
-    assert identity_path(7, 3.0, 1).stat().st_mtime_ns == stamp
+    assert identity_path(7, draw_traits(7, 3.0), 1).stat().st_mtime_ns == stamp
     np.testing.assert_array_equal(first.sides[Handedness.LEFT].albedo, second.sides[Handedness.LEFT].albedo)
 
 
