@@ -247,6 +247,7 @@ export class Session {
 
   #welcomed(welcome: Welcome, offset: bigint, nowMs: number): Effect[] {
     const effects = welcome.recovered ? [] : this.#endAll();
+    if (welcome.recovered) this.#verifier?.resume();
     if (this.#epoch !== welcome.epoch) this.clock.reset();
     const serverMs = millisecondsOf(welcome.serverNowNs);
     this.clock.add({ clientSendMs: this.#helloMs, serverReceiveMs: serverMs, serverSendMs: serverMs, clientReceiveMs: nowMs });
