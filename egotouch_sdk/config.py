@@ -347,6 +347,10 @@ class TouchConfig(_Section):
             layers.append(Layer("", overrides))
         return cls._layered(layers)
 
+    def changed_by(self, path: str | Path) -> Self:
+        """These settings, but for those that a .toml or .json file names."""
+        return self._layered([Layer("", self.model_dump()), read_file(path)])
+
     @classmethod
     def names(cls) -> dict[str, tuple[str, ...]]:
         """The settings of each section; under `""` those outside sections."""

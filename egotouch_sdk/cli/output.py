@@ -23,7 +23,7 @@ def print_json(value: Any) -> None:
 def event_line(event: TouchEvent) -> str:
     """One event for people: time, what, which finger, where on which skin, how sure, and what matters to its kind."""
     words = f"{event.timestamp_ns / 1e9:9.3f} s  {event.type.value:<12}  {event.hand.value:<5} {event.finger.value:<6}"
-    place = f"{event.surface.value:<13} ({event.x_mm:4.0f}, {event.y_mm:4.0f}) mm  p {event.touch_probability:.2f}"
+    place = f"{event.surface.value:<13} ({event.x_mm:z4.0f}, {event.y_mm:z4.0f}) mm  p {event.touch_probability:.2f}"
     reason = f"  {event.reason.value}" if event.reason else ""
     return f"{words}  {place}{_detail(event)}{reason}"
 
@@ -39,10 +39,11 @@ def _detail(event: TouchEvent) -> str:
 
 
 class Progress:
-    """Frames done, on stderr: one line that is rewritten on a terminal, or a line now and then with `always`."""
+    """Frames (or another `unit`) done, on stderr: one line that is rewritten on a terminal, or a line now and then with `always`."""
 
-    def __init__(self, total: int | None, *, always: bool = False) -> None:
+    def __init__(self, total: int | None, *, always: bool = False, unit: str = "frames") -> None:
         self._total = total
+        self._unit = unit
         self._in_place = sys.stderr.isatty()
         self._on = always or self._in_place
         self._start_ns = self._last_ns = now_ns()
@@ -67,7 +68,7 @@ class Progress:
     def _write(self, now: int) -> None:
         rate = self._done / max((now - self._start_ns) / 1e9, 1e-9)
         share = f" of {self._total} ({100 * self._done / self._total:.0f} %)" if self._total else ""
-        line = f"{self._done} frames{share}, {rate:.1f} per second"
+        line = f"{self._done} {self._unit}{share}, {rate:.1f} per second"
         sys.stderr.write(f"\r\x1b[K{line}" if self._in_place else f"{line}\n")
         sys.stderr.flush()
         self._wrote = True

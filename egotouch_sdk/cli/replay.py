@@ -13,7 +13,6 @@ from egotouch_sdk.cli.options import Subparsers, add_command
 from egotouch_sdk.cli.output import event_line, print_json
 
 if TYPE_CHECKING:
-    from egotouch_sdk.config import TouchConfig
     from egotouch_sdk.recording import Header
     from egotouch_sdk.replay import ReplayedFrame
     from egotouch_sdk.touch_event import TouchEvent
@@ -40,7 +39,7 @@ def replay(options: argparse.Namespace) -> int:
     from egotouch_sdk.replay import replay as replayed_frames
 
     recording = RecordingSource(options.file)
-    config = _changed(recording.config, options.config) if options.config else None
+    config = recording.config.changed_by(options.config) if options.config else None
     tally = _Tally()
     for frame in replayed_frames(recording, config):
         tally.add(frame, with_lines=config is not None)
@@ -87,12 +86,6 @@ class _Tally:
         if with_lines:
             self.recorded_lines += _lines(frame.recorded)
             self.replayed_lines += _lines(frame.replayed)
-
-
-def _changed(config: TouchConfig, path: Path) -> TouchConfig:
-    from egotouch_sdk.config_layers import merged, read_file
-
-    return type(config)(**merged([config.model_dump(), read_file(path).settings]))
 
 
 def _lines(events: tuple[TouchEvent, ...]) -> list[str]:

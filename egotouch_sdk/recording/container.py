@@ -180,6 +180,8 @@ def _next_whole(records: Iterator[object]) -> object:
         raise DamagedError("the file ends too early") from None
     except InvalidMagic:
         raise DamagedError("it does not begin like an MCAP file") from None
+    except struct.error:
+        raise DamagedError("a record is too short") from None
     except _DAMAGE as error:
         raise DamagedError(str(error)) from error
 

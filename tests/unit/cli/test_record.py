@@ -72,6 +72,14 @@ def test_settings_that_change_nothing_are_said_to(egotouch: Command, recording: 
     assert err.endswith("events, identical\n")
 
 
+def test_a_mistake_in_the_settings_is_said_with_its_file(egotouch: Command, recording: Path, tmp_path: Path) -> None:
+    settings = tmp_path / "mistaken.json"
+    settings.write_text('{"gestures": {"long_press": 30}}')
+    code, out, err = egotouch("replay", recording, "--config", settings)
+    words = f"config file {settings}: there is no setting GestureConfig.long_press. Did you mean long_press_timeout_ms?"
+    assert (code, out, err) == (1, "", f"egotouch: error: {words}\n")
+
+
 def test_a_difference_is_named_with_version_and_model(egotouch: Command, tmp_path: Path) -> None:
     """A recording of a version that reported twice the force."""
     file, engine = tmp_path / "other.mcap", EventEngine()

@@ -100,6 +100,14 @@ def test_a_recording_of_another_program_is_refused(tmp_path: Path) -> None:
         RecordingSource(file_with(tmp_path / "robot.mcap", "/robot/pose", pb.Resume()))
 
 
+@pytest.mark.parametrize("data", [b"", b"hi", b"\x89MCAP0\r\n", b"\x89MCAP0\r\n\x01\x00"])
+def test_a_file_of_a_few_bytes_is_refused_in_words(tmp_path: Path, data: bytes) -> None:
+    path = tmp_path / "short.mcap"
+    path.write_bytes(data)
+    with pytest.raises(RecordingError, match=r"nothing of it is whole \((the file ends too early|a record is too short)\)"):
+        RecordingSource(path)
+
+
 def test_a_later_format_is_refused(tmp_path: Path) -> None:
     header = pb.RecordingHeader(format=2, sdk_version="9.1.0")
     with pytest.raises(RecordingError, match=r"format 2 \(egotouch 9.1.0\).*upgrade"):
