@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import argparse
 import platform
+import re
+import socket
+from collections import defaultdict
 from collections.abc import Callable, Iterator
 from dataclasses import asdict, dataclass
 from enum import StrEnum
-from importlib.metadata import PackageNotFoundError, version
+from importlib.metadata import PackageNotFoundError, requires, version
 from pathlib import Path
 
 from egotouch_sdk import __version__
@@ -20,11 +23,11 @@ EXAMPLES = """\
   egotouch doctor --json       the same for programs
 """
 RUNTIME_PACKAGES = ("numpy", "onnxruntime", "opencv-python-headless", "protobuf", "pydantic", "websockets")
-EXTRAS = {
-    "synthetic": ("av", "mitsuba", "pygltflib", "scipy"),
-    "train": ("torch", "lightning", "onnx"),
-    "evaluation": ("pingouin", "pyarrow"),
-}
+DISTRIBUTION = "egotouch-sdk"
+#: Extras that are bundles of others, or tools for working on the project itself.
+NO_FEATURES = {"all", "browser", "dev"}
+#: A requirement of an extra in the installed package's metadata, such as `textual>=1; extra == "debug"`.
+EXTRA_REQUIREMENT = re.compile(r"(?P<name>[\w.-]+).*;.*extra == ['\"](?P<extra>[\w.-]+)['\"]")
 #: Camera indexes tried where the system does not list its cameras.
 CAMERAS_TRIED = 3
 
@@ -49,7 +52,7 @@ class Finding:
 
 def add_parser(subparsers: Subparsers) -> None:
     """Add `doctor` to the command line."""
-    parser = add_command(subparsers, "doctor", "check the installation, models and cameras, and say how to mend what is wrong", EXAMPLES)
+    parser = add_command(subparsers, "doctor", "check packages, models, network and cameras, and say how to mend what is wrong", EXAMPLES)
     parser.add_argument("--json", action="store_true", help='one JSON object {"findings": [...], "broken": n}')
     parser.add_argument("--no-cameras", action="store_true", help="do not open any camera")
     parser.set_defaults(handler=doctor)
@@ -57,7 +60,7 @@ def add_parser(subparsers: Subparsers) -> None:
 
 def doctor(options: argparse.Namespace) -> int:
     """Run all checks; 1 when anything that every user needs is broken."""
-    checks: list[Callable[[], Iterator[Finding]]] = [_packages, _hand_models, _touch_model, _demo_clip, _extras]
+    checks: list[Callable[[], Iterator[Finding]]] = [_packages, _hand_models, _touch_model, _demo_clip, _extras, _network]
     if not options.no_cameras:
         checks.append(_cameras)
     findings = [finding for check in checks for finding in check()]
@@ -75,7 +78,7 @@ def doctor(options: argparse.Namespace) -> int:
 
 def _packages() -> Iterator[Finding]:
     system = f"Python {platform.python_version()}, {platform.system()} {platform.machine()}"
-    yield Finding("egotouch-sdk", Verdict.OK, f"{__version__}, {system}")
+    yield Finding(DISTRIBUTION, Verdict.OK, f"{__version__}, {system}")
     for name in RUNTIME_PACKAGES:
         try:
             yield Finding(name, Verdict.OK, version(name))
@@ -118,13 +121,45 @@ def _demo_clip() -> Iterator[Finding]:
 
 
 def _extras() -> Iterator[Finding]:
-    for extra, names in EXTRAS.items():
+    for extra, names in _packages_of_extras().items():
         missing = [name for name in names if not _installed(name)]
         if missing:
             hint = MissingExtraError(extra, extra).hint
             yield Finding(f"extra [{extra}]", Verdict.NOTE, f"not installed ({', '.join(missing)}); only needed for that feature", hint)
         else:
             yield Finding(f"extra [{extra}]", Verdict.OK, ", ".join(f"{name} {version(name)}" for name in names))
+
+
+def _packages_of_extras() -> dict[str, list[str]]:
+    """The packages that each extra brings, as the installed package says itself."""
+    found: defaultdict[str, list[str]] = defaultdict(list)
+    try:
+        requirements = requires(DISTRIBUTION) or []
+    except PackageNotFoundError:
+        requirements = []
+    for requirement in filter(None, map(EXTRA_REQUIREMENT.match, requirements)):
+        if requirement["extra"] not in NO_FEATURES:
+            found[requirement["extra"]].append(requirement["name"])
+    return dict(sorted(found.items()))
+
+
+def _network() -> Iterator[Finding]:
+    from egotouch_sdk.cli.serve import DEFAULT_PORT
+    from egotouch_sdk.server.network import lan_addresses
+
+    addresses = lan_addresses()
+    if addresses:
+        yield Finding("local network", Verdict.OK, f"headsets would reach `egotouch serve 0 --lan` at {', '.join(addresses)}")
+    else:
+        yield Finding("local network", Verdict.NOTE, "this machine is on none", "Join the headset's network to use --lan")
+    with socket.socket() as probe:
+        probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)  # as the server does: an earlier one's last connections do not count
+        try:
+            probe.bind(("127.0.0.1", DEFAULT_PORT))
+        except OSError:
+            yield Finding(f"port {DEFAULT_PORT}", Verdict.NOTE, "in use", "Stop the other program, or serve on another one with --port")
+        else:
+            yield Finding(f"port {DEFAULT_PORT}", Verdict.OK, "free for `egotouch serve`")
 
 
 def _installed(name: str) -> bool:

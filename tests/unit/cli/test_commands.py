@@ -143,6 +143,14 @@ def test_doctor_names_packages_and_models_with_their_hashes(egotouch: Command) -
     assert all("sha256" in findings[name]["detail"] for name in ("palm_detection_full", "hand_landmark_full", "touch model"))
 
 
+def test_doctor_names_every_extra_a_user_may_want_and_the_network(egotouch: Command) -> None:
+    _, out, _ = egotouch("doctor", "--json", "--no-cameras")
+    checks = {finding["check"] for finding in json.loads(out)["findings"]}
+    wanted = {f"extra [{name}]" for name in ("debug", "lan", "mdns", "nats", "recording", "simulate", "synthetic", "train", "tuio")}
+    assert wanted | {"local network", "port 8765"} <= checks
+    assert not checks & {"extra [all]", "extra [browser]", "extra [dev]"}
+
+
 def test_doctor_says_how_to_mend_what_is_broken(
     egotouch: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
