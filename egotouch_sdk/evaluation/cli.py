@@ -9,11 +9,13 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
+from egotouch_sdk.cli import evaluate_study
 from egotouch_sdk.cli.options import Subparsers, add_command, add_pipeline_options, config_from, positive_float
 from egotouch_sdk.cli.output import print_json
 from egotouch_sdk.errors import ConfigError
 
 EXAMPLES = """\
+  egotouch evaluate study data/study --report study.html      a simulated study by the paper's protocol
   egotouch evaluate real thumb_patches                 AUROC, accuracy and force on labelled real pictures
   egotouch evaluate false-touches clips/*.mp4          false touches per minute where nothing is touched
   egotouch evaluate host-frame                         place and angles of the demo clip's touches against the truth
@@ -34,6 +36,7 @@ def add_parser(subparsers: Subparsers) -> None:
     """Add `evaluate` to the command line."""
     parser = add_command(subparsers, "evaluate", "measure the touch model on real pictures or on video without touches", EXAMPLES)
     kinds = parser.add_subparsers(title="what to measure", metavar="KIND", required=True)
+    evaluate_study.add_parser(kinds)
     real = add_command(kinds, "real", "score labelled real finger-up pictures", "  egotouch evaluate real thumb_patches --json\n")
     real.add_argument("folder", type=Path, metavar="DIR", help="folder with labels.csv and the pictures")
     real.add_argument("--model", type=Path, metavar="FILE", help="touch model .onnx with its .json (default: the shipped one)")

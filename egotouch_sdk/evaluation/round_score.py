@@ -12,7 +12,9 @@ from egotouch_sdk.evaluation.alignment import aligned_confusion, runs
 from egotouch_sdk.evaluation.confusion import Bools, Confusion, Matches
 from egotouch_sdk.evaluation.study_run import Answers
 from egotouch_sdk.evaluation.touches import TOLERANCES, Candidates, candidates, match_times, meetings
-from egotouch_sdk.study_data import RoundMeta, StudyRound, TouchType
+from egotouch_sdk.joints import Finger
+from egotouch_sdk.study_data import Hair, RoundMeta, StudyRound, TouchType
+from egotouch_sdk.surface import Surface
 
 #: Sides that are scored: the model's own frames, behind the median, and between DOWN and UP of the state machine.
 SIDES = ("raw", "median", "live")
@@ -68,6 +70,10 @@ class Truth:
 BETWEEN_PARTICIPANTS = frozenset({"skin tone", "hair"})
 
 
+#: Values of conditions in the order in which they are told; all others follow by name.
+ORDER = ("I", "II", "III", "IV", "V", "VI", *Hair, *Surface, *TouchType, *Finger)
+
+
 def _conditions(meta: RoundMeta) -> dict[str, str]:
     return {
         "skin tone": ("I", "II", "III", "IV", "V", "VI")[meta.fitzpatrick - 1],
@@ -75,8 +81,8 @@ def _conditions(meta: RoundMeta) -> dict[str, str]:
         "place": meta.place.value,
         "touch type": meta.touch_type.value,
         "light": meta.light,
-        "outdoors": "outdoors" if meta.outdoors else "indoors",
-        "walking": "walking" if meta.walking else "still",
+        "setting": "outdoors" if meta.outdoors else "indoors",
+        "motion": "walking" if meta.walking else "still",
         "finger": meta.finger.value,
         "touching hand": meta.touching_hand.value,
     }

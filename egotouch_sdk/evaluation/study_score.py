@@ -11,7 +11,7 @@ import numpy as np
 
 from egotouch_sdk.evaluation.confusion import Confusion, Matches, share
 from egotouch_sdk.evaluation.metrics import auroc, calibration_error, force_scores
-from egotouch_sdk.evaluation.round_score import HARD_N, SHIFTS, SIDES, RoundScore
+from egotouch_sdk.evaluation.round_score import HARD_N, ORDER, SHIFTS, SIDES, RoundScore
 from egotouch_sdk.evaluation.touches import TOLERANCES, Candidates, average_precision
 
 Figures = dict[str, float]
@@ -38,12 +38,11 @@ def figures(scores: Sequence[RoundScore]) -> Figures:
     """Every figure of some rounds taken together, by name; nan where there is nothing to measure.
 
     Shares are 0..1, forces newtons, times ms. Frame figures are of the live side (median and state machine) against the truth of the
-    same frame; `aligned_*` after the hard alignment; `auroc`, `auprc` and `ece` of the model's own probability.
+    same frame; `shifted_*` with the truth one frame later, as in the paper; `aligned_*` after the hard alignment; `auroc`, `auprc` and
+    `ece` of the model's own probability.
     """
-    live, aligned = (
-        sum((score.frames["live", 0] for score in scores), Confusion()),
-        sum((score.aligned["live"] for score in scores), Confusion()),
-    )
+    live, later = (sum((score.frames["live", shift] for score in scores), Confusion()) for shift in SHIFTS)
+    aligned = sum((score.aligned["live"] for score in scores), Confusion())
     touch = np.concatenate([score.touch for score in scores])
     probability = np.concatenate([score.probability for score in scores])
     both = bool(touch.any() and not touch.all())
@@ -52,6 +51,9 @@ def figures(scores: Sequence[RoundScore]) -> Figures:
         "accuracy": live.accuracy,
         "tpr": live.tpr,
         "fpr": live.fpr,
+        "shifted_accuracy": later.accuracy,
+        "shifted_tpr": later.tpr,
+        "shifted_fpr": later.fpr,
         "aligned_accuracy": aligned.accuracy,
         "aligned_tpr": aligned.tpr,
         "aligned_fpr": aligned.fpr,
@@ -165,9 +167,10 @@ class Group:
 
 
 def groups(scores: Sequence[RoundScore], condition: str) -> list[Group]:
-    """The groups of a condition by name; rounds without the condition are left out."""
+    """The groups of a condition in their order; rounds without the condition are left out."""
     result = []
-    for name in sorted({score.conditions[condition] for score in scores if condition in score.conditions}):
+    names = {score.conditions[condition] for score in scores if condition in score.conditions}
+    for name in sorted(names, key=lambda name: (ORDER.index(name) if name in ORDER else len(ORDER), name)):
         part = [score for score in scores if score.conditions.get(condition) == name]
         each = {participant: accuracy(rounds) for participant, rounds in by_participant(part).items()}
         result.append(Group(name, len(part), each, figures(part)))

@@ -78,8 +78,8 @@ def test_conditions_come_from_the_rounds_meta(model: TouchModel) -> None:
         "place": "palm",
         "touch type": "drag",
         "light": "lamp",
-        "outdoors": "indoors",
-        "walking": "walking",
+        "setting": "indoors",
+        "motion": "walking",
         "finger": "ring",
         "touching hand": "right",
     }

@@ -130,9 +130,9 @@ def test_groups_compare_the_values_of_a_condition(model: TouchModel) -> None:
     rounds.append(scored(model, GOOD, BAD, participant=1, round=9, place=Surface.INNER_FOREARM))
     parts = groups(rounds, "place")
     assert [(part.name, part.rounds, list(part.accuracies)) for part in parts] == [
+        ("palm", 2, ["p00", "p01"]),
         ("back_of_hand", 2, ["p00", "p01"]),
         ("inner_forearm", 1, ["p01"]),
-        ("palm", 2, ["p00", "p01"]),
     ]
     weakest = worst(parts)
     assert weakest is not None and weakest.name == "inner_forearm" and weakest.figures["click_accuracy"] == 0.5
