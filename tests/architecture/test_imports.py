@@ -15,6 +15,7 @@ PACKAGE = Path(__file__).parents[2] / "egotouch_sdk"
 #: A module imports only from lower ranks or from its own sub-package.
 RANKS: tuple[frozenset[str], ...] = (
     frozenset({"errors", "joints", "surface", "clock"}),
+    frozenset({"jobs"}),
     frozenset({"frame", "observation", "touch_event", "config_layers", "config_presets"}),
     frozenset({"frame_observation", "config", "hand_geometry", "model_input", "model_store", "inference", "events", "study_data"}),
     frozenset({"frame_result"}),
@@ -32,10 +33,10 @@ RANK_OF = {module: rank for rank, modules in enumerate(RANKS) for module in modu
 #: The public names are imported on first use and belong to no rank.
 FACADE = "__init__"
 #: Offline sub-packages: nobody needs them to find touches.
-OFFLINE = frozenset({"training", "synthetic", "evaluation"})
+OFFLINE = frozenset({"training", "synthetic", "evaluation", "jobs"})
 #: The only importers of an offline sub-package besides itself.
-MAY_USE_OFFLINE = {"training": OFFLINE, "cli": OFFLINE}
-SOLE_IMPORTER = {"onnxruntime": "inference.py", "time": "clock.py"}
+MAY_USE_OFFLINE = {"training": OFFLINE, "cli": OFFLINE, "synthetic": {"jobs"}, "evaluation": {"jobs"}}
+SOLE_IMPORTER = {"onnxruntime": "inference.py", "time": "clock.py", "ray": "jobs/ray_cluster.py"}
 
 
 def imports(path: Path) -> Iterator[str]:
