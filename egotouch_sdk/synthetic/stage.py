@@ -64,7 +64,8 @@ class Stage:
 
     `detail` False poses coarse meshes, enough to find out whether the scene is possible (raises `ImpossibleSceneError`).
     `aim` fixes the camera and the finger's direction from outside, for clips; the scene is then taken as possible.
-    All in the receiving hand's own space, metres; `normal` is the skin's at the contact, `contact` the point.
+    All in the receiving hand's own space, metres; `normal` is the skin's at the contact, `contact` the point, `heading` where the finger
+    points along the skin.
     """
 
     def __init__(
@@ -130,7 +131,7 @@ class Stage:
         plan, n = self.plan, self.aim.normal
         heading = reject_from(np.cos(plan.heading_rad) * self.aim.right + np.sin(plan.heading_rad) * self.aim.up, n)
         self.finger_axis = np.cos(plan.pitch_rad) * heading - np.sin(plan.pitch_rad) * n
-        self._heading = reject_from(heading, self.normal)
+        self.heading = reject_from(heading, self.normal)
         dorsal = reject_from(n, self.finger_axis)
         across = np.cross(dorsal, -self.finger_axis)
         self.nail_normal = np.cos(plan.roll_rad) * dorsal + np.sin(plan.roll_rad) * across
@@ -138,18 +139,22 @@ class Stage:
         return bone_frame(self.finger_axis, self.nail_normal) @ bone_frame(axis, reject_from(g[self._dip, :3, 1], axis)).T
 
     def _rest_on_skin(self) -> None:
-        self._frame = np.stack([self._heading, np.cross(self.normal, self._heading), self.normal], 1)
+        self._frame = np.stack([self.heading, np.cross(self.normal, self.heading), self.normal], 1)
         self._near = np.flatnonzero(((self._host_v - self.contact) ** 2).sum(1) < _DENT_REACH_M**2)
         local = (self._host_v[self._near] - self.contact) @ self._frame
         facing = (self._host_n[self._near] @ self.normal > 0.15) & (local[:, 2] > -0.02)
         self._skin_field = HeightField(local[facing], lowest=False)
         for attempt in range(3):
             pad = (self._touch_v[self._pad] - self.contact) @ self._frame
-            low = pad[pad[:, 2] < np.partition(pad[:, 2], len(pad) // 3)[len(pad) // 3]]
-            gap = low[:, 2] - np.nan_to_num(self._skin_field.at(low[:, 0], low[:, 1]), nan=-1.0)
-            k = int(np.argmin(gap))
-            shift = np.array([-low[k, 0], -low[k, 1], -gap[k]]) if attempt < 2 else np.array([0.0, 0.0, -gap[k]])
-            self._move(self._frame @ shift)
+            (x, y, _), gap = self._closest(pad)
+            self._move(self._frame @ (np.array([-x, -y, -gap]) if attempt < 2 else np.array([0.0, 0.0, -gap])))
+
+    def _closest(self, pad: Array) -> tuple[Array, float]:
+        """The pad's point (3,) that is closest to the skin below it, in the contact frame, and its gap in metres."""
+        low = pad[pad[:, 2] < np.partition(pad[:, 2], len(pad) // 3)[len(pad) // 3]]
+        gap = low[:, 2] - np.nan_to_num(self._skin_field.at(low[:, 0], low[:, 1]), nan=-1.0)
+        k = int(np.argmin(gap))
+        return low[k], float(gap[k])
 
     def _move(self, offset: Array) -> None:
         for name in ("_touch_v", "_landmarks", "_tip_joint", "_dip_joint"):
@@ -179,25 +184,46 @@ class Stage:
 
     def at(self, force_n: float = 0.0, hover_mm: float = 0.0) -> Touch:
         """The pair pressed with `force_n` (> 0) or hovering `hover_mm` above the skin along its normal."""
+        return self.moved(force_n, hover_mm, (0.0, 0.0), 0.0, force_n)
+
+    def moved(self, force_n: float, hover_mm: float, offset_m: tuple[float, float], tilt_rad: float, colour_n: float) -> Touch:
+        """As `at`, with the finger moved over the skin by `offset_m`, along its heading and across it, up to about 0.015 m.
+
+        `tilt_rad` raises the finger about its tip. `colour_n` is the force that the colour of nail and skin shows: it lags behind.
+        """
         skin_l, skin_r = self._identity.sides["left"], self._identity.sides["right"]
         host_albedo, touch_albedo = skin_l.albedo[self._host_ids].astype(float), skin_r.albedo[self._touch_ids].astype(float)
-        host_v, touch_v, dent_mm = self._host_v, self._touch_v, 0.0
+        host_v, touch_v, landmarks, dent_mm = self._host_v, self._touch_v, self._landmarks, 0.0
+        if offset_m != (0.0, 0.0) or tilt_rad != 0.0:
+            touch_v, landmarks = self._displaced(np.array([*offset_m, 0.0]), tilt_rad)
         sink = self.plan.tissue.sink_m(force_n) if force_n > 0 else 0.0
         shift = self.normal * (hover_mm * 1e-3 - sink)
         touch_v = touch_v + shift
         if force_n > 0:
-            host_v, touch_v, host_albedo, dent_mm = self._press(touch_v, sink, force_n, host_albedo)
-            touch_albedo = touch_albedo if self._identity.polished else self._blanch_nail(touch_albedo, force_n)
+            host_v, touch_v, host_albedo, dent_mm = self._press(touch_v, sink, colour_n, host_albedo, np.array(offset_m))
+        if colour_n > 0 and not self._identity.polished:
+            touch_albedo = self._blanch_nail(touch_albedo, colour_n)
         return Touch(
             Surface(host_v, self._host_faces, host_albedo, skin_l.roughness[self._host_ids].astype(float)),
             Surface(touch_v, self._touch_faces, touch_albedo, skin_r.roughness[self._touch_ids].astype(float)),
-            self._landmarks + shift,
+            landmarks + shift,
             force_n,
             hover_mm,
             dent_mm,
         )
 
-    def _press(self, touch_v: Array, sink: float, force_n: float, host_albedo: Array) -> tuple[Array, Array, Array, float]:
+    def _displaced(self, offset: Array, tilt_rad: float) -> tuple[Array, Array]:
+        """Vertices and landmarks of the touching hand, moved by `offset` (3,) in the contact frame, tilted, and at rest on skin again."""
+        across = self._frame[:, 1]
+        c, s = np.cos(tilt_rad), np.sin(tilt_rad)
+        cross = np.array([[0, -across[2], across[1]], [across[2], 0, -across[0]], [-across[1], across[0], 0]])
+        turn = c * np.eye(3) + s * cross + (1 - c) * np.outer(across, across)
+        touch_v, landmarks = ((points - self.contact) @ turn.T for points in (self._touch_v, self._landmarks))
+        _, gap = self._closest(touch_v[self._pad] @ self._frame + offset)
+        moved = self.contact + self._frame @ (offset - np.array([0.0, 0.0, gap]))
+        return touch_v + moved, landmarks + moved
+
+    def _press(self, touch_v: Array, sink: float, colour_n: float, host_albedo: Array, offset: Array) -> tuple[Array, Array, Array, float]:
         normals_up = vertex_normals(touch_v, self._touch_faces)[self._pad]
         pad = (touch_v[self._pad] - self.contact) @ self._frame
         up = normals_up @ self.normal
@@ -210,7 +236,7 @@ class Stage:
         sideways = normals_up - self.normal * up[:, None]
         touch_v = touch_v.copy()
         touch_v[self._pad] += self.normal * lift[:, None] + sideways * bulge[:, None]
-        pale = min(1.0, force_n / 2.5) * 0.12 * np.exp(-(((np.linalg.norm(local[:, :2], axis=1) - dent.radius_m) / 0.004) ** 2))
+        pale = min(1.0, colour_n / 2.5) * 0.12 * np.exp(-(((np.linalg.norm(local[:, :2] - offset, axis=1) - dent.radius_m) / 0.004) ** 2))
         host_albedo[self._near] = _towards_pale(host_albedo[self._near], pale * weight)
         return host_v, touch_v, host_albedo, dent.depth_max_m * 1e3
 

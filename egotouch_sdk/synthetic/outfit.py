@@ -1,0 +1,64 @@
+"""What a participant wears in one round: their jewellery, and a sleeve in some rounds, never over the contact."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from egotouch_sdk.joints import Handedness
+from egotouch_sdk.synthetic.hand_rig import HandRig
+from egotouch_sdk.synthetic.linalg import Array
+from egotouch_sdk.synthetic.participants import FIRST_SEED, PARTICIPANTS
+from egotouch_sdk.synthetic.skin import SkinIdentity
+from egotouch_sdk.synthetic.wearables import Item, Sleeve, Srgb, covers, dress
+
+#: Share of rounds with sleeves, indoors and outdoors, and how far from the contact anything worn stays (all our choice).
+SLEEVE_ODDS = {False: 0.45, True: 0.65}
+MARGIN_M = 0.022
+#: Where sleeves end: pushed up or down, from the wrist joint towards the elbow.
+_SLEEVE_END_M, _STRIPED = (0.0, 0.24), 0.3
+
+
+def draw_outfit(rng: np.random.Generator, number: int, outdoors: bool, on_arm_m: Array) -> tuple[tuple[Item, ...], tuple[Item, ...]]:
+    """What participant `number` wears on the receiving and on the touching arm in a round.
+
+    `on_arm_m` (3,) is the contact in the receiving hand's wrist frame. A watch that would be touched is taken off, a sleeve that would
+    be is pushed up.
+    """
+    stated = PARTICIPANTS[number]
+    left: list[Item] = [ring for ring in stated.rings if ring.hand is Handedness.LEFT]
+    right: list[Item] = [ring for ring in stated.rings if ring.hand is Handedness.RIGHT]
+    host = HandRig("left")
+    if stated.watch is not None and not covers(host, (stated.watch,), on_arm_m, MARGIN_M):
+        left.append(stated.watch)
+    sleeved = rng.random() < SLEEVE_ODDS[outdoors]
+    ends = rng.uniform(*_SLEEVE_END_M, 2)
+    if sleeved:
+        colour, stripe, stripe_mm = _garment(number, outdoors)
+        free_m = max(float(on_arm_m[2]) + MARGIN_M + 0.008, _SLEEVE_END_M[0])
+        left.append(Sleeve(max(float(ends[0]), free_m), colour, stripe, stripe_mm))
+        right.append(Sleeve(float(ends[1]), colour, stripe, stripe_mm))
+    return tuple(left), tuple(right)
+
+
+def dress_both(skin: SkinIdentity, outfit: tuple[tuple[Item, ...], tuple[Item, ...]]) -> SkinIdentity:
+    """The participant's skin with what is worn on the receiving (left) and touching (right) arm."""
+    sides = {
+        side: dress(HandRig(side, skin.level), skin.sides[side], items, skin.seed) if items else skin.sides[side]
+        for side, items in zip(("left", "right"), outfit, strict=True)
+    }
+    return replace(skin, sides=sides)
+
+
+def _garment(number: int, outdoors: bool) -> tuple[Srgb, Srgb, float]:
+    """Colours of the participant's shirt or jacket and the width of its stripes in millimetres."""
+    rng = np.random.default_rng([FIRST_SEED + number, 5, int(outdoors)])
+    base, second = (rng.uniform(20, 235) + rng.normal(0, 25, 3) for _ in range(2))
+    stripe_mm = float(rng.uniform(3, 14)) if rng.random() < _STRIPED else 0.0
+    return _srgb(base), _srgb(second), stripe_mm
+
+
+def _srgb(values: Array) -> Srgb:
+    r, g, b = (int(v) for v in np.clip(values, 8, 245))
+    return r, g, b
