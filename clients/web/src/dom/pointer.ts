@@ -159,13 +159,16 @@ export class DomPointer {
     this.#dispatch(type, target, {
       cancelable: type !== "pointercancel",
       button: changed,
-      coalescedEvents: type === "pointermove" ? this.#samples() : [],
+      coalescedEvents: type === "pointermove" ? this.#samples(target) : [],
     });
   }
 
-  /** The merged events and this one, oldest first. */
-  #samples(): PointerEvent[] {
-    return [...this.#last.coalesced, this.#last].map((event) => new PointerEvent("pointermove", this.#init(event, this.#map(event) ?? this.#point, {})));
+  /** The merged events and this one, oldest first. Browsers give a target to those of trusted events only. */
+  #samples(target: Element): PointerEvent[] {
+    return [...this.#last.coalesced, this.#last].map((event) => {
+      const sample = new PointerEvent("pointermove", this.#init(event, this.#map(event) ?? this.#point, {}));
+      return Object.defineProperty(sample, "target", { value: target });
+    });
   }
 
   #dispatch(type: string, target: Element, init: PointerEventInit): boolean {
