@@ -38,6 +38,7 @@ COMMANDS = (
 
 #: Import names of optional packages, by the extra that brings them.
 EXTRA_PACKAGES = {
+    "cluster": ("ray",),
     "debug": ("rich", "textual"),
     "evaluation": ("pingouin", "pyarrow"),
     "lan": ("cryptography", "segno"),

@@ -12,6 +12,7 @@ from egotouch_sdk.config_presets import PRESET_NAMES
 if TYPE_CHECKING:
     from egotouch_sdk.cli.play import Engine
     from egotouch_sdk.config import TouchConfig
+    from egotouch_sdk.jobs import Runner
     from egotouch_sdk.sources import FrameSource, ObservationSource
 
 Subparsers = Any  # argparse's own type for it is private
@@ -67,6 +68,24 @@ def add_config_option(parser: argparse.ArgumentParser) -> None:
 def add_threads_option(parser: argparse.ArgumentParser) -> None:
     """--threads."""
     parser.add_argument("--threads", type=positive_int, metavar="N", help="threads for the hand networks and for the touch network")
+
+
+def add_runner_options(parser: argparse.ArgumentParser) -> None:
+    """--workers and --ray."""
+    parser.add_argument("--workers", type=positive_int, default=os.cpu_count() or 1, metavar="N", help="processes (default: all cores)")
+    add_ray_option(parser)
+
+
+def add_ray_option(parser: argparse.ArgumentParser) -> None:
+    """--ray."""
+    parser.add_argument("--ray", metavar="ADDRESS", help="work on a Ray cluster: HOST:PORT, auto, or local to start one on this machine")
+
+
+def runner_from(options: argparse.Namespace) -> Runner:
+    """What carries out the tasks of a batch: processes of this machine, or a Ray cluster where one was named."""
+    from egotouch_sdk.jobs.choice import open_runner
+
+    return open_runner(options.workers, options.ray)
 
 
 def positive_int(text: str) -> int:

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import argparse
-import os
 import sys
+from contextlib import closing
 from pathlib import Path
 from typing import Any
 
+from egotouch_sdk.cli.options import add_runner_options, runner_from
+
 _EXAMPLES = """examples:
   egotouch synth patches --out data/patches --series 1000   # 8,000 labelled patches; stop and restart as you like
+  egotouch synth patches --out data/patches --ray auto     # the same on a Ray cluster
   egotouch synth demo --scratch data/demo --out data        # the clip that `egotouch demo` plays
   egotouch synth sheet data/patches sheet.png               # look at some of them
 """
@@ -27,12 +30,12 @@ def add_parser(subparsers: Any) -> None:
     patches.add_argument("--participants", type=int, default=24, help="different skins (default 24)")
     patches.add_argument("--samples", type=int, default=12, help="light paths per pixel (default 12)")
     patches.add_argument("--seed", type=int, default=0)
-    patches.add_argument("--workers", type=int, default=os.cpu_count() or 1, help="processes (default: all cores)")
+    add_runner_options(patches)
     patches.set_defaults(handler=_patches)
     demo = commands.add_parser("demo", help="render the demo clip and its ground truth (resumable, about 20 minutes on 2 cores)")
     demo.add_argument("--scratch", type=Path, required=True, help="folder for rendered frames (about 1 GB)")
     demo.add_argument("--out", type=Path, required=True, help="folder for demo.mp4 and demo_truth.json")
-    demo.add_argument("--workers", type=int, default=os.cpu_count() or 1, help="processes (default: all cores)")
+    add_runner_options(demo)
     demo.set_defaults(handler=_demo)
     sheet = commands.add_parser("sheet", help="contact sheet of a folder of patches")
     sheet.add_argument("folder", type=Path)
@@ -42,19 +45,26 @@ def add_parser(subparsers: Any) -> None:
     sheet.set_defaults(handler=_sheet)
 
 
+def _report(line: str) -> None:
+    print(line, file=sys.stderr, flush=True)
+
+
 def _patches(args: argparse.Namespace) -> int:
     from egotouch_sdk.synthetic.patches_job import PatchJob, run
 
     job = PatchJob(args.seed, args.series, args.participants, args.samples)
-    made = run(job, args.out, args.workers, lambda line: print(line, file=sys.stderr, flush=True))
-    print(f"{made} new patches in {args.out}")
-    return 0
+    with closing(runner_from(args)) as runner:
+        result = run(job, args.out, runner, _report)
+    print(f"{result.counted} new patches in {args.out}")
+    return result.exit_code
 
 
 def _demo(args: argparse.Namespace) -> int:
     from egotouch_sdk.synthetic.clip import assemble_demo, render_demo
 
-    render_demo(args.scratch, args.workers, lambda line: print(line, file=sys.stderr, flush=True))
+    with closing(runner_from(args)) as runner:
+        if exit_code := render_demo(args.scratch, runner, _report).exit_code:
+            return exit_code
     args.out.mkdir(parents=True, exist_ok=True)
     frames = assemble_demo(args.scratch, args.out / "demo.mp4", args.out / "demo_truth.json")
     print(f"{frames} frames in {args.out / 'demo.mp4'}")

@@ -1,13 +1,10 @@
-"""Renders a script to a video with its ground truth: frames on several processes, then light, camera and H.264."""
+"""Renders a script to a video with its ground truth: frames by many workers, then light, camera and H.264."""
 
 from __future__ import annotations
 
 import functools
 import json
-import multiprocessing as mp
-import os
 from collections.abc import Callable, Sequence
-from concurrent.futures import ProcessPoolExecutor, as_completed
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from egotouch_sdk.errors import MissingExtraError
+from egotouch_sdk.jobs import Batch, BatchResult, Runner, Task, run_jobs
 from egotouch_sdk.synthetic.camera import groove
 from egotouch_sdk.synthetic.patches_job import participant
 from egotouch_sdk.synthetic.script import FPS, Shot
@@ -35,27 +33,24 @@ def _take(shot: int) -> Take:
     return Take(DEMO[shot], participant(DEMO[shot].participant))
 
 
-def _scratch(folder: Path, shot: int, frame: int) -> Path:
-    return folder / f"take{shot}-{frame:04d}.npz"
+def _frame_name(shot: int, frame: int) -> str:
+    return f"take{shot}-{frame:04d}.npz"
 
 
-def _render(folder: Path, shot: int, frames: Sequence[int]) -> int:
-    for frame in frames:
-        rendered = _take(shot).render(frame)
-        path = _scratch(folder, shot, frame)
-        partial = path.with_suffix(f".{os.getpid()}.tmp")
-        with partial.open("wb") as file:
-            layers = rendered.layers
-            np.savez(
-                file,
-                light=np.clip(layers.light, 0, 60).astype(np.float16),
-                albedo=layers.albedo.astype(np.float16),
-                segment=layers.segment,
-                depth_mm=(layers.depth_m * 1e3).astype(np.float32),
-                truth=np.array(json.dumps(rendered.truth)),
-            )
-        partial.replace(path)
-    return len(frames)
+def render_frame(path: Path, shot: int, frame: int) -> int:
+    """Render one frame of the demo's take `shot` with its truth to `path`; returns 1, the number of frames."""
+    rendered = _take(shot).render(frame)
+    layers = rendered.layers
+    with path.open("wb") as file:
+        np.savez(
+            file,
+            light=np.clip(layers.light, 0, 60).astype(np.float16),
+            albedo=layers.albedo.astype(np.float16),
+            segment=layers.segment,
+            depth_mm=(layers.depth_m * 1e3).astype(np.float32),
+            truth=np.array(json.dumps(rendered.truth)),
+        )
+    return 1
 
 
 def _develop(layers: Any, shot: Shot, exposure: float, rng: np.random.Generator) -> npt.NDArray[np.uint8]:
@@ -84,22 +79,11 @@ def _exposure(layers: Any, shot: Shot) -> float:
     return float(_SKIN_LEVEL / np.median(((layers["light"][skin].astype(float) @ shot.light_gains) * layers["albedo"][skin]).mean(-1)))
 
 
-def render_demo(folder: Path, workers: int, report: Callable[[str], None]) -> int:
-    """Render every missing frame of the demo's takes into `folder`; returns how many were new."""
-    folder.mkdir(parents=True, exist_ok=True)
-    jobs = []
-    for shot in range(len(DEMO)):
-        missing = [f for f in range(DEMO[shot].frames) if not _scratch(folder, shot, f).exists()]
-        jobs += [(shot, missing[i : i + 8]) for i in range(0, len(missing), 8)]
-    total, done = sum(len(frames) for _, frames in jobs), 0
-    pool = ProcessPoolExecutor(workers, mp_context=mp.get_context("spawn"))
-    try:
-        for future in as_completed([pool.submit(_render, folder, shot, frames) for shot, frames in jobs]):
-            done += future.result()
-            report(f"{done}/{total} frames")
-    finally:
-        pool.shutdown(wait=False, cancel_futures=True)
-    return total
+def render_demo(folder: Path, runner: Runner, report: Callable[[str], None]) -> BatchResult:
+    """Render every missing frame of the demo's takes into `folder`."""
+    frames = [(shot, frame) for shot in range(len(DEMO)) for frame in range(DEMO[shot].frames)]
+    tasks = tuple(Task(_frame_name(shot, frame), render_frame, (shot, frame)) for shot, frame in frames)
+    return run_jobs(Batch("demo", folder, tasks, "frames"), runner, report)
 
 
 def _touches(frames: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
@@ -141,7 +125,7 @@ def assemble_demo(folder: Path, video: Path, truth: Path) -> int:
         for number, shot in enumerate(DEMO):
             exposure = 0.0
             for frame in range(shot.frames):
-                with np.load(_scratch(folder, number, frame)) as layers:
+                with np.load(folder / _frame_name(number, frame)) as layers:
                     exposure = exposure or _exposure(layers, shot)
                     image = _develop(layers, shot, exposure, rng)
                     labels.append({"frame": len(labels), "take": number, **json.loads(str(layers["truth"]))})

@@ -1,19 +1,16 @@
-"""Renders a data set of patches, shard by shard, on several processes; stop and start it as you like."""
+"""Renders a data set of patches, shard by shard, on processes of this machine or on a cluster; stop and start it as you like."""
 
 from __future__ import annotations
 
 import json
-import multiprocessing as mp
-import os
 from collections.abc import Callable
-from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
 import numpy as np
 
-from egotouch_sdk.clock import now_ns
 from egotouch_sdk.errors import ConfigError
+from egotouch_sdk.jobs import Batch, BatchResult, Runner, Task, run_jobs
 from egotouch_sdk.synthetic.hand_rig import HandRig
 from egotouch_sdk.synthetic.series import LabelledLayers, render_series
 from egotouch_sdk.synthetic.shards import write_shard
@@ -27,7 +24,7 @@ _FITZPATRICK = (3.0, 2.0, 3.4, 4.0, 2.6, 5.0, 3.2, 1.3, 3.8, 6.0, 2.3, 4.4)
 
 @dataclass(frozen=True, slots=True)
 class PatchJob:
-    """What a data set is made of; the same job gives the same patches whatever the number of processes."""
+    """What a data set is made of; the same job gives the same patches whatever renders them, and how many."""
 
     seed: int
     series: int
@@ -45,8 +42,8 @@ def participant(number: int) -> SkinIdentity:
     return bake_identity(number, _FITZPATRICK[number % len(_FITZPATRICK)])
 
 
-def render_shard(job: PatchJob, shard: int, out: Path) -> int:
-    """Render one shard into `out` and return its number of patches; every shard has one participant."""
+def render_shard(path: Path, job: PatchJob, shard: int) -> int:
+    """Render one shard, write it to `path` and return its number of patches; every shard has one participant."""
     number = shard % job.participants
     identity = participant(number)
     host, touching = HandRig("left"), HandRig("right")
@@ -58,16 +55,12 @@ def render_shard(job: PatchJob, shard: int, out: Path) -> int:
             continue
         extra = {"participant": number, "fitzpatrick": identity.fitzpatrick, "scene": f"{job.seed}-{index}"}
         patches += [LabelledLayers(p.layers, {**p.labels, **extra}) for p in rendered]
-    write_shard(out / f"shard-{job.seed}-{shard:05d}.npz", patches)
+    write_shard(path, patches)
     return len(patches)
 
 
-def _start_worker() -> None:
-    os.environ["OPENBLAS_NUM_THREADS"] = os.environ["OMP_NUM_THREADS"] = "1"
-
-
-def run(job: PatchJob, out: Path, workers: int, report: Callable[[str], None]) -> int:
-    """Render every missing shard of `job` into `out`; returns the number of new patches.
+def run(job: PatchJob, out: Path, runner: Runner, report: Callable[[str], None]) -> BatchResult:
+    """Render every missing shard of `job` into `out`; the result's `counted` is the number of new patches.
 
     `report` gets one line per finished shard. Raises `ConfigError` when `out` holds another job's data.
     """
@@ -76,18 +69,5 @@ def run(job: PatchJob, out: Path, workers: int, report: Callable[[str], None]) -
     if recipe.exists() and json.loads(recipe.read_text()) != asdict(job):
         raise ConfigError(f"{out} holds another job with seed {job.seed}: {recipe.read_text().strip()}", hint="Use another folder or seed")
     recipe.write_text(json.dumps(asdict(job)) + "\n")
-    missing = [k for k in range(job.shards) if not (out / f"shard-{job.seed}-{k:05d}.npz").exists()]
-    report(f"{job.shards - len(missing)} of {job.shards} shards are there, {len(missing)} to render on {workers} processes")
-    started_ns, made = now_ns(), 0
-    pool = ProcessPoolExecutor(workers, mp_context=mp.get_context("spawn"), initializer=_start_worker)
-    try:
-        futures = [pool.submit(render_shard, job, k, out) for k in missing]
-        for done, future in enumerate(as_completed(futures), 1):
-            made += future.result()
-            elapsed_s = (now_ns() - started_ns) / 1e9
-            rate = made / elapsed_s * 3600
-            left_min = (len(missing) - done) / max(done, 1) * elapsed_s / 60
-            report(f"shard {done}/{len(missing)}: {made} patches, {rate:.0f} per hour, {left_min:.0f} min left")
-    finally:
-        pool.shutdown(wait=False, cancel_futures=True)
-    return made
+    shards = tuple(Task(f"shard-{job.seed}-{k:05d}.npz", render_shard, (job, k)) for k in range(job.shards))
+    return run_jobs(Batch(f"job-{job.seed}", out, shards, "shards", "patches"), runner, report)

@@ -116,7 +116,7 @@ def _wait_for(cluster: Cluster, true: object) -> Path:
     pytest.fail(f"waited two minutes in vain: {cluster.attempts(3)}")
 
 
-@pytest.mark.parametrize("address", ["127.0.0.1:{port}", "ray://127.0.0.1:{port}", "no.such.host.invalid:6379"])
+@pytest.mark.parametrize("address", ["127.0.0.1:{port}", "ray://127.0.0.1:{port}"])
 def test_no_cluster_at_an_address_is_said_in_one_line(address: str) -> None:
     address = address.format(port=free_port())
     program = f"from egotouch_sdk.jobs.ray_cluster import RayCluster; RayCluster({address!r})"

@@ -7,6 +7,8 @@ import pytest
 pytest.importorskip("scipy")
 
 from egotouch_sdk.errors import ConfigError, SourceError
+from egotouch_sdk.jobs import BatchResult
+from egotouch_sdk.jobs.local import LocalProcesses
 from egotouch_sdk.synthetic.patches_job import PatchJob, run
 from egotouch_sdk.synthetic.render import Layers
 from egotouch_sdk.synthetic.series import LabelledLayers
@@ -43,14 +45,14 @@ def test_srgb_codes_are_the_standard_ones() -> None:
 def test_another_jobs_folder_is_refused(tmp_path: Path) -> None:
     (tmp_path / "job-0.json").write_text(json.dumps({"seed": 0, "series": 5, "participants": 2, "samples": 9}))
     with pytest.raises(ConfigError, match="another job"):
-        run(PatchJob(0, 8, 2, 9), tmp_path, 1, lambda line: None)
+        run(PatchJob(0, 8, 2, 9), tmp_path, LocalProcesses(1), lambda line: None)
 
 
 def test_a_finished_job_renders_nothing_again(tmp_path: Path) -> None:
     write_shard(tmp_path / "shard-0-00000.npz", [patch(0.25, True)])
     lines: list[str] = []
-    assert run(PatchJob(0, 8, 2, 9), tmp_path, 1, lines.append) == 0
-    assert lines == ["1 of 1 shards are there, 0 to render on 1 processes"]
+    assert run(PatchJob(0, 8, 2, 9), tmp_path, LocalProcesses(1), lines.append) == BatchResult(0, (), ())
+    assert lines == ["1 of 1 shards are there, 0 to make on 1 process"]
 
 
 def test_a_sheet_of_nothing_says_what_to_do(tmp_path: Path) -> None:
