@@ -55,7 +55,6 @@ class Client:
                 relay.cancel()
             with contextlib.suppress(asyncio.CancelledError):
                 await relay
-            self._metrics.merged += self.session.merged
             self._metrics.closed[int(self.session.close.code if self.session.close else ended_with(self._socket))] += 1
 
     def flush(self) -> None:

@@ -91,6 +91,7 @@ class EventServer:
         self._closing = False
         self._board = StatusBoard(self.settings.source)
         self._frame_index = 0
+        self._source_index = -1
         self._crowd = Crowd(CONNECTIONS_PER_CLIENT * self.settings.limits.max_clients)
         self._front = HttpFront(
             self.settings.pages, self.settings.door, self.metrics, self._health, self.settings.token, self.settings.video
@@ -144,6 +145,8 @@ class EventServer:
         if result is not None:
             self._frame_index += 1
             self.metrics.frames += 1
+            self.metrics.dropped["frame"] += max(result.index - self._source_index - 1, 0)
+            self._source_index = result.index
             self._board.note(result, handed_ns)
             if self.settings.landmarks and any(client.session.subscription.landmarks for client in self._clients):
                 view = hands_view(result)
@@ -191,6 +194,7 @@ class EventServer:
             limits=settings.limits,
             info=settings.info,
             push=settings.push,
+            drops=self.metrics.dropped,
         )
         client = Client(connection, session, self.metrics)
         self._clients.add(client)

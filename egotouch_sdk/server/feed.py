@@ -19,26 +19,50 @@ PAUSE_NS = 500_000_000
 
 
 class ServedSource:
-    """A source on the clock of the server: one that is not live begins now and, with `repeat`, again after its end."""
+    """A source on the clock of the server: one that is not live begins now and, with `repeat`, again after its end.
+
+    A video is served as a camera would see it: a frame whose successor is due already is left out, so that a machine that is too slow
+    for all of them is never further behind than one. Observations cost nothing and all come.
+    """
 
     def __init__(self, source: FrameSource | ObservationSource, *, repeat: bool = False, clock: Callable[[], int] = now_ns) -> None:
         self.is_live = source.is_live
         self._source = source
+        self._leaves_out = not isinstance(source, ObservationSource)
         self._repeat = repeat and not source.is_live
         self._clock = clock
         self._closed = False
 
     def __iter__(self) -> Iterator[Any]:
-        start_ns = self._clock()
+        if self.is_live:
+            yield from self._source
+            return
+        start_ns, last_ns = self._clock(), None
         while not self._closed:
-            offset_ns: int | None = 0 if self.is_live else None
-            for item in self._source:
-                if offset_ns is None:
-                    offset_ns = start_ns - item.timestamp_ns
-                start_ns = item.timestamp_ns + offset_ns + PAUSE_NS
-                yield replace(item, timestamp_ns=item.timestamp_ns + offset_ns) if offset_ns else item
-            if not self._repeat or offset_ns is None:
+            for item in self._due(self._dated(start_ns)):
+                last_ns = item.timestamp_ns
+                yield item
+            if not self._repeat or last_ns is None:
                 return
+            start_ns = last_ns + PAUSE_NS
+
+    def _dated(self, start_ns: int) -> Iterator[Any]:
+        """The source's items, of which the first has this time."""
+        offset_ns: int | None = None
+        for item in self._source:
+            if offset_ns is None:
+                offset_ns = start_ns - item.timestamp_ns
+            yield replace(item, timestamp_ns=item.timestamp_ns + offset_ns)
+
+    def _due(self, items: Iterator[Any]) -> Iterator[Any]:
+        """Those that are worth taking when they are asked for."""
+        newest = next(items, None)
+        for item in items:
+            if not self._leaves_out or item.timestamp_ns > self._clock():
+                yield newest
+            newest = item
+        if newest is not None:
+            yield newest
 
     def close(self) -> None:
         """Close the source itself."""

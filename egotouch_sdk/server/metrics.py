@@ -9,6 +9,13 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 #: Upper bounds of the latency buckets in seconds.
 BUCKETS_S = (0.0005, 0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0)
 
+#: Classes of what does not go out as it came in. Edges that are in time are in none of them: they are never dropped.
+DROPS = ("frame", "move", "late_edge", "status")
+DROPPED = (
+    "Frames nobody had time for, batches of moves that became part of a later one for one client, edges that came too late for one "
+    "client to act upon, statuses and landmarks left out for one client while others waited."
+)
+
 
 class Histogram:
     """Counts of values up to each bound, as Prometheus has them."""
@@ -42,9 +49,9 @@ class Metrics:
     def __init__(self) -> None:
         self.frames = 0
         self.messages = 0
-        self.merged = 0
         self.clients = 0
         self.events: Counter[str] = Counter()
+        self.dropped: Counter[str] = Counter(dict.fromkeys(DROPS, 0))
         self.closed: Counter[int] = Counter()
         self.added_latency = Histogram()
         self.capture_latency = Histogram()
@@ -58,7 +65,7 @@ class Metrics:
         yield from family("egotouch_frames_total", "counter", "Frames worked through.", [("", self.frames)])
         yield from family("egotouch_events_total", "counter", "Events published.", labelled("type", self.events))
         yield from family("egotouch_messages_sent_total", "counter", "Messages sent to clients.", [("", self.messages)])
-        yield from family("egotouch_batches_merged_total", "counter", "Batches merged for clients that take fewer.", [("", self.merged)])
+        yield from family("egotouch_dropped_total", "counter", DROPPED, labelled("class", self.dropped))
         yield from family("egotouch_clients", "gauge", "Clients that are connected.", [("", self.clients)])
         yield from family("egotouch_connections_closed_total", "counter", "Connections closed, by code.", labelled("code", self.closed))
         name, text = "egotouch_added_latency_seconds", "From the end of inference to the socket, for each message with events."

@@ -28,16 +28,18 @@ class Outbox:
         """The oldest batch."""
         return self._batches[0] if self._batches else None
 
-    def push(self, batch: Batch) -> None:
-        """Add the newest batch."""
+    def push(self, batch: Batch) -> bool:
+        """Add the newest batch; True when it took in the one before it."""
         last = self._batches[-1] if self._batches else None
-        if last is not None and not (last.has_edges or batch.has_edges):
+        merges = last is not None and not (last.has_edges or batch.has_edges)
+        if last is not None and merges:
             self._batches.pop()
             self._bytes -= last.size_bytes
             batch = last.merged_with(batch)
             self.merged += 1
         self._batches.append(batch)
         self._bytes += batch.size_bytes
+        return merges
 
     def pop(self) -> Batch:
         """Take the oldest batch."""

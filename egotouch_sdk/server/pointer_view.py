@@ -40,10 +40,13 @@ class PointerView:
     - The first stale edge of a contact cancels it (DISCONNECTED) and the rest of it is left out; stale clicks are left out.
     - Clients that want late edges get them all instead, marked. A frame is late as a whole, since it is sent as a whole, and a contact
       that began late stays so to its end.
+
+    `withheld` counts the stale edges with which a contact was cancelled or left out, and the stale clicks.
     """
 
     def __init__(self, subscription: Subscription, held: dict[int, Pointer] | None = None) -> None:
         self.subscription = subscription
+        self.withheld = 0
         self._pointers = held or {}
 
     def apply(self, events: Sequence[TouchEvent], *, stale: bool = False, replay: bool = False) -> Shown:
@@ -65,6 +68,7 @@ class PointerView:
             if event.type not in _OPENS_POINTER or not self.subscription.wants_place(event):
                 return
             if event.type is EventType.DOWN and stale and not late:
+                self.withheld += 1
                 return
             pointer = self._pointers[event.pointer_id] = Pointer()
             yield _entering(event)
@@ -87,6 +91,7 @@ class PointerView:
     def _show_down(self, pointer: Pointer, event: TouchEvent, stale: bool, late: bool) -> Iterator[TouchEvent]:
         wanted = self.subscription.wants_type(event.type) and self.subscription.wants_place(event)
         if not wanted or (stale and not late):
+            self.withheld += wanted
             pointer.contact_id, pointer.is_down = 0, False
             return
         pointer.contact_id, pointer.is_down = event.contact_id, True
@@ -98,6 +103,7 @@ class PointerView:
         if pointer.is_down == (event.type in _AFTERWARDS):
             return
         if stale and not late and event.type.is_edge:
+            self.withheld += 1
             if pointer.is_down:
                 yield from _cancelling(pointer, event)
             pointer.contact_id, pointer.is_down = 0, False

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections import deque
+from collections import Counter, deque
 from collections.abc import Callable
 from enum import StrEnum
 from math import ceil
@@ -44,6 +44,7 @@ class Session:
     `receive` takes the client's messages, `offer` the server's batches, `tick` lets time pass; `next_message` gives what to send next
     and is called whenever the transport has room. Once `close` is set, nothing more is sent and nothing more is taken.
     `push` takes what a client pushes as the server's source; without it such messages are answered by a Warning.
+    `drops` counts what did not go out as it came in, by the classes of `metrics.DROPS`.
     """
 
     def __init__(
@@ -56,6 +57,7 @@ class Session:
         limits: Limits | None = None,
         info: ServerInfo | None = None,
         push: PushTarget | None = None,
+        drops: Counter[str] | None = None,
     ) -> None:
         self.state = State.AWAITING_HELLO
         self.close: Close | None = None
@@ -67,6 +69,7 @@ class Session:
         self._limits = limits or Limits()
         self._info = info or ServerInfo()
         self._push = push
+        self._drops = Counter() if drops is None else drops
         self._commands = TokenBucket(self._limits.commands_per_s, self._limits.command_burst, now_ns)
         burst_s = self._limits.push_burst_s
         self._pushes = TokenBucket(self._limits.pushes_per_s, self._limits.pushes_per_s * burst_s, now_ns)
@@ -202,21 +205,29 @@ class Session:
             return
         if not self.has_waiting:
             self._progress_ns = now_ns
-        self._outbox.push(batch)
+        self._drops["move"] += self._outbox.push(batch)
         if self._outbox.is_overfull:
             self._end_slow()
 
     def offer_status(self, status: pb.Status) -> None:
         """Take the newest status, for clients that asked; left out while others wait."""
-        if self.state is State.LIVE and self.subscription.status and not self._control:
-            mine = pb.Status()
-            mine.CopyFrom(status)
-            mine.merged = self.merged
-            self._control.append(pb.ServerMessage(status=mine))
+        if self.state is not State.LIVE or not self.subscription.status:
+            return
+        if self._control:
+            self._drops["status"] += 1
+            return
+        mine = pb.Status()
+        mine.CopyFrom(status)
+        mine.merged = self.merged
+        self._control.append(pb.ServerMessage(status=mine))
 
     def offer_hands(self, hands: pb.HandsView) -> None:
         """Take the newest landmarks, for clients that asked; left out while others wait."""
-        if self.state is State.LIVE and self.subscription.landmarks and not self.has_waiting:
+        if self.state is not State.LIVE or not self.subscription.landmarks:
+            return
+        if self.has_waiting:
+            self._drops["status"] += 1
+        else:
             self._control.append(pb.ServerMessage(hands=hands))
 
     def next_message(self, now_ns: int) -> bytes | str | None:
@@ -229,7 +240,9 @@ class Session:
         while len(self._outbox) and not self._is_holding(now_ns):
             batch = self._outbox.pop()
             stale = now_ns - batch.published_ns > self._limits.input_ttl_ns
+            withheld_before = self._view.withheld
             shown = self._view.apply(batch.events, stale=stale, replay=batch.replay)
+            self._drops["late_edge"] += self._view.withheld - withheld_before
             self._offset = batch.offset
             if shown[1]:
                 self._sent_ns = now_ns

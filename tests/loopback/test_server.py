@@ -16,6 +16,8 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.typing import Subprotocol
 
 from egotouch_sdk.errors import ConfigError
+from egotouch_sdk.frame_observation import FrameObservation
+from egotouch_sdk.frame_result import FrameResult
 from egotouch_sdk.server import CloseCode, EventServer, Settings
 from egotouch_sdk.server.access import TokenAccess
 from egotouch_sdk.server.limits import SECOND_NS
@@ -343,9 +345,21 @@ def test_health_and_metrics() -> None:
                 'egotouch_events_total{type="hover_enter"} 1',
                 "egotouch_clients 1",
                 'egotouch_connections_closed_total{code="4422"} 1',
+                'egotouch_dropped_total{class="frame"} 0',
+                'egotouch_dropped_total{class="late_edge"} 0',
                 "egotouch_added_latency_seconds_count 1",
             ):
                 assert line in lines
+
+    run(test())
+
+
+def test_frames_that_nobody_had_time_for_are_counted() -> None:
+    async def test() -> None:
+        async with running_server() as server:
+            for index in (0, 1, 4, 5, 0, 2):  # a clip that begins anew after its sixth frame
+                server.take_frame(index, FrameResult(FrameObservation(index, index, 640, 480)), (), index)
+            assert {"egotouch_frames_total 6", 'egotouch_dropped_total{class="frame"} 3'} <= set(server.metrics.text().splitlines())
 
     run(test())
 

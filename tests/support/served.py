@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from typing import Any
 
 from egotouch_sdk.joints import Finger
@@ -27,6 +28,7 @@ class ServedWorld:
         self.now_ns = 1_000_000 * MS
         self.frame = 0
         self.edges: list[TouchEvent] = []
+        self.drops: Counter[str] = Counter()
         self.clients: list[LinkedClient] = []
         self.restart(epoch)
 
@@ -82,7 +84,7 @@ class LinkedClient:
         self.stalled = False
         self.ages: list[tuple[EventType, int]] = []
         self._spelling = SUBPROTOCOLS[subprotocol]
-        self._session_options = {"limits": world.limits} | session
+        self._session_options = {"limits": world.limits, "drops": world.drops} | session
         self.session: Session | None = None
         self.open()
 

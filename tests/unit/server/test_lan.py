@@ -141,3 +141,14 @@ def test_only_known_kinds_of_files_are_served(tmp_path: Path) -> None:
         "/", "/index.html", "/deep/app.js"
     }  # fmt: skip
     assert Pages(None).find("/") is None
+
+
+def test_a_folder_with_an_index_is_served_under_its_path_with_a_slash(tmp_path: Path) -> None:
+    for name in ("app/index.html", "bare/app.js"):
+        (tmp_path / name).parent.mkdir()
+        (tmp_path / name).write_text(name)
+    pages = Pages(tmp_path)
+    index = pages.find("/app/index.html")
+    assert index is not None and pages.find("/app/?x=1") is index
+    assert [pages.is_folder(path) for path in ("/app", "/app/", "/bare", "")] == [True, False, False, False]
+    assert pages.find("/app") is None

@@ -262,6 +262,7 @@ def test_moves_merge_while_a_client_stalls_and_edges_do_not(world: ServedWorld, 
     assert len(merged.coalesced) == 2
     client.expect(E.MOVE, *CLICKED)
     assert client.session is not None and client.session.merged == 2
+    assert world.drops.total() == world.drops["move"] == 2
 
 
 def test_history_is_left_out_on_request(world: ServedWorld, finger: ServedFinger) -> None:
@@ -283,8 +284,31 @@ def test_an_edge_that_waited_too_long_cancels_its_contact(world: ServedWorld, fi
     world.wait(300)
     client.resume_reading()
     client.expect(E.HOVER_ENTER, E.DOWN, E.CANCEL)
+    assert world.drops.total() == world.drops["late_edge"] == 1
     finger.tap()
     client.expect(E.DOWN, *CLICKED)
+    assert world.drops.total() == 1
+
+
+def test_a_touch_that_waited_too_long_is_left_out_as_a_whole(world: ServedWorld, finger: ServedFinger) -> None:
+    client = world.join()
+    finger.enter()
+    client.stalled = True
+    finger.tap()
+    world.wait(300)
+    client.resume_reading()
+    client.expect(E.HOVER_ENTER)
+    assert world.drops.total() == world.drops["late_edge"] == 1
+
+
+def test_a_status_is_left_out_while_something_waits(world: ServedWorld, finger: ServedFinger) -> None:
+    client = world.join(status=True)
+    assert client.session is not None
+    for hands_in_view in (1, 2):
+        client.session.offer_status(pb.Status(hands_in_view=hands_in_view))
+    client.pump()
+    assert [message.status.hands_in_view for message in client.model.others if message.HasField("status")] == [1]
+    assert world.drops.total() == world.drops["status"] == 1
 
 
 def test_a_client_that_reads_nothing_is_closed(world: ServedWorld, finger: ServedFinger) -> None:
