@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from math import exp, inf, lgamma, log, sqrt
 from typing import TYPE_CHECKING
 
 from egotouch_sdk.touch_event import CancelReason, EventType
@@ -38,6 +39,37 @@ class FalseTouches:
     def downs_per_minute(self) -> float:
         """False touches per minute of video, 0 for an empty clip."""
         return self.downs / self.duration_s * 60 if self.duration_s > 0 else 0.0
+
+    @property
+    def interval_per_minute(self) -> tuple[float, float]:
+        """95 % interval of the true rate, taking false touches as a Poisson process; (0, inf) for an empty clip."""
+        if self.duration_s <= 0:
+            return 0.0, inf
+        low, high = poisson_interval(self.downs)
+        return low / self.duration_s * 60, high / self.duration_s * 60
+
+    @property
+    def open_gate_s(self) -> float:
+        """Time with an open gate: only then can a touch be told."""
+        return self.duration_s * self.frames_with_open_gate / self.frames if self.frames else 0.0
+
+
+def poisson_interval(count: int, level: float = 0.95) -> tuple[float, float]:
+    """Exact (Garwood 1936) interval of a Poisson mean after `count` events, by bisection."""
+    tail = (1 - level) / 2
+
+    def at_most(events: int, mean: float) -> float:
+        return sum(exp(number * log(mean) - mean - lgamma(number + 1)) for number in range(events + 1)) if mean > 0 else 1.0
+
+    def solve(is_above: Callable[[float], bool]) -> float:
+        low, high = 0.0, count + 10 * sqrt(count + 1) + 10
+        for _ in range(80):
+            middle = (low + high) / 2
+            low, high = (low, middle) if is_above(middle) else (middle, high)
+        return (low + high) / 2
+
+    lower = solve(lambda mean: 1 - at_most(count - 1, mean) > tail) if count else 0.0
+    return lower, solve(lambda mean: at_most(count, mean) < tail)
 
 
 def count_false_touches(frames: Iterable[Frame], pipeline: TouchPipeline) -> FalseTouches:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import csv
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -14,8 +15,9 @@ import numpy as np
 import numpy.typing as npt
 
 from egotouch_sdk.errors import SourceError
+from egotouch_sdk.evaluation.bootstrap import DRAWS, Indices, interval_of_recordings
 from egotouch_sdk.evaluation.darkness import darkness
-from egotouch_sdk.evaluation.metrics import auroc, spearman, touch_scores
+from egotouch_sdk.evaluation.metrics import Floats, auroc, spearman, touch_scores
 from egotouch_sdk.joints import Finger, Handedness
 from egotouch_sdk.observation import FingertipPatch, TouchEstimate
 from egotouch_sdk.patches import cut_patch
@@ -23,6 +25,8 @@ from egotouch_sdk.touch import TouchModel
 
 LABELS_FILE = "labels.csv"
 COLUMNS = ("file", "recording", "frame", "label", "label_confidence", "force_sensor_counts")
+#: Least sensor reading that is a force, not the sensor's floor (our measurement: from 10 counts it agrees with the eye in 90 %).
+FLOOR_COUNTS = 10.0
 #: Patches per call of the model.
 BATCH = 64
 
@@ -78,30 +82,56 @@ def estimate_all(patches: Sequence[RealPatch], model: TouchModel) -> list[TouchE
     return [estimate for start in range(0, len(shown), BATCH) for estimate in model.estimate(shown[start : start + BATCH])]
 
 
-def real_report(patches: Sequence[RealPatch], estimates: Sequence[TouchEstimate], threshold: float) -> dict[str, Any]:
-    """Scores pooled and per recording, the trivial darkness rule beside the model; shares are 0..1, None where undefined."""
+def real_report(patches: Sequence[RealPatch], estimates: Sequence[TouchEstimate], threshold: float, draws: int = DRAWS) -> dict[str, Any]:
+    """Scores pooled and per recording, the trivial darkness rule beside the model; shares are 0..1, None where undefined.
+
+    `*_interval` are 95 % bootstraps: within a recording by stretches of frames, pooled by recordings and stretches within them.
+    `force_spearman` is over all touches with a sensor reading, `force_spearman_above_floor` over those that the sensor felt.
+    """
     recordings = sorted({patch.recording for patch in patches})
-    pairs = list(zip(patches, estimates, strict=True))
-    report = {name: _scores([pair for pair in pairs if pair[0].recording == name], threshold) for name in recordings}
-    return {"threshold": threshold, "pooled": _scores(pairs, threshold), "recordings": report}
+    ordered = [pair for name in recordings for pair in zip(patches, estimates, strict=True) if pair[0].recording == name]
+    parts = {name: [pair for pair in ordered if pair[0].recording == name] for name in recordings}
+    return {
+        "threshold": threshold,
+        "pooled": _scores(list(parts.values()), threshold, draws),
+        "recordings": {name: _scores([part], threshold, draws) for name, part in parts.items()},
+    }
 
 
-def _scores(pairs: Sequence[tuple[RealPatch, TouchEstimate]], threshold: float) -> dict[str, Any]:
+def _scores(parts: Sequence[Sequence[tuple[RealPatch, TouchEstimate]]], threshold: float, draws: int) -> dict[str, Any]:
+    pairs = [pair for part in parts for pair in part]
     touch = np.array([patch.touch for patch, _ in pairs])
     counts = np.array([patch.sensor_counts for patch, _ in pairs])
     probability = np.array([estimate.touch_probability for _, estimate in pairs])
     force_n = np.array([estimate.force_n for _, estimate in pairs])
     rule = darkness(np.stack([patch.image for patch, _ in pairs]))
+    called = probability >= threshold
+
+    def interval(figure: Callable[[Indices], float]) -> list[float] | None:
+        low, high = interval_of_recordings([len(part) for part in parts], figure, draws=draws)
+        return None if math.isnan(low) else [round(low, 4), round(high, 4)]
+
+    def rank(score: Floats, rows: Indices) -> float:
+        return auroc(touch[rows], score[rows]) if touch[rows].any() and not touch[rows].all() else math.nan
+
+    def force_rank(least: float, rows: Indices) -> float:
+        rows = rows[touch[rows] & (counts[rows] >= least)]
+        return spearman(force_n[rows], counts[rows])
+
+    everything = np.arange(len(pairs))
     scores: dict[str, Any] = {"touches": int(touch.sum()), "hovers": int((~touch).sum())}
     if touch.any() and not touch.all():
         model = touch_scores(touch, probability, threshold)
-        scores["auroc"], scores["darkness_auroc"] = round(model.auroc, 4), round(auroc(touch, rule), 4)
+        scores["auroc"], scores["auroc_interval"] = round(model.auroc, 4), interval(partial(rank, probability))
+        scores["darkness_auroc"], scores["darkness_auroc_interval"] = round(auroc(touch, rule), 4), interval(partial(rank, rule))
         scores["true_positive_rate"] = round(model.true_positive_rate, 4)
         scores["false_positive_rate"] = round(model.false_positive_rate, 4)
-    scores["accuracy"] = round(float(((probability >= threshold) == touch).mean()), 4)
-    measured = touch & np.isfinite(counts)
-    correlation = spearman(force_n[measured], counts[measured])
-    scores["force_spearman"] = None if math.isnan(correlation) else round(correlation, 4)
+    scores["accuracy"] = round(float((called == touch).mean()), 4)
+    scores["accuracy_interval"] = interval(lambda rows: float((called[rows] == touch[rows]).mean()))
+    for name, least in (("force_spearman", -math.inf), ("force_spearman_above_floor", FLOOR_COUNTS)):
+        correlation = force_rank(least, everything)
+        scores[name] = None if math.isnan(correlation) else round(correlation, 4)
+        scores[f"{name}_interval"] = None if math.isnan(correlation) else interval(partial(force_rank, least))
     return scores
 
 

@@ -6,7 +6,7 @@ from statistics import NormalDist
 import numpy as np
 import pytest
 
-from egotouch_sdk.evaluation.bootstrap import interval_of, interval_of_mean
+from egotouch_sdk.evaluation.bootstrap import Indices, interval_of, interval_of_mean, interval_of_recordings
 
 
 def test_the_interval_of_a_mean_is_the_normal_one_for_many_participants() -> None:
@@ -28,3 +28,28 @@ def test_the_same_draws_come_again_and_the_unknown_is_left_out() -> None:
 def test_one_unit_has_no_interval() -> None:
     assert all(isnan(bound) for bound in (*interval_of_mean([0.9]), *interval_of([1], lambda units: 1.0)))
     assert all(isnan(bound) for bound in interval_of([1, 2], lambda units: float("nan"), draws=5))
+
+
+def test_rows_are_drawn_in_stretches_of_whole_recordings() -> None:
+    seen: list[Indices] = []
+
+    def note(rows: Indices) -> float:
+        seen.append(rows)
+        return float(rows.mean())
+
+    interval_of_recordings([40, 7], note, block=5, draws=50)
+    for rows in seen:
+        lengths = {40, 7}
+        first = 40 if len(rows) in (80, 47) and rows[:40].max() < 40 else 7
+        assert len(rows) in {80, 47, 14} and first in lengths
+        for start in range(0, first, 5):
+            stretch = rows[start : min(start + 5, first)]
+            assert (np.diff(stretch) == 1).all() and (stretch < 40).all() == (stretch[0] < 40)
+    assert len({len(rows) for rows in seen}) == 3
+
+
+def test_near_copies_do_not_narrow_the_interval() -> None:
+    values = np.repeat(np.random.default_rng(1).normal(0, 1, 20), 15)
+    stretches = interval_of_recordings([300], lambda rows: float(values[rows].mean()), block=15)
+    frames = interval_of_recordings([300], lambda rows: float(values[rows].mean()), block=1)
+    assert stretches[1] - stretches[0] > 2.5 * (frames[1] - frames[0])

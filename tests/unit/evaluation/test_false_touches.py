@@ -3,7 +3,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from egotouch_sdk.evaluation.false_touches import FalseTouches, count_false_touches
+from egotouch_sdk.evaluation.false_touches import FalseTouches, count_false_touches, poisson_interval
 from egotouch_sdk.frame import Frame
 from egotouch_sdk.pipeline import TouchPipeline
 
@@ -39,3 +39,17 @@ def test_downs_are_counted_per_minute_and_clips_add_up() -> None:
 def test_no_frames_is_no_rate() -> None:
     pipeline = SimpleNamespace(process=None, finish=None)
     assert count_false_touches([], pipeline).downs_per_minute == 0.0  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("count", [0, 1, 2, 7, 40, 300])
+def test_the_interval_of_a_rate_is_the_chi_square_one(count: int) -> None:
+    stats = pytest.importorskip("scipy.stats")
+    low, high = poisson_interval(count)
+    assert low == pytest.approx(stats.chi2.ppf(0.025, 2 * count) / 2 if count else 0.0, abs=1e-6)
+    assert high == pytest.approx(stats.chi2.ppf(0.975, 2 * count + 2) / 2, abs=1e-6)
+
+
+def test_no_false_touch_in_a_minute_still_allows_for_some() -> None:
+    counted = FalseTouches(1800, 60.0, 0, 0, 0, 450)
+    assert counted.interval_per_minute == pytest.approx((0.0, 3.689), abs=1e-3) and counted.open_gate_s == 15.0
+    assert FalseTouches(0, 0.0, 0, 0, 0, 0).interval_per_minute == (0.0, float("inf"))

@@ -61,12 +61,26 @@ def test_the_report_counts_per_recording_and_pooled() -> None:
     ]
     patches = [RealPatch("x", name, touch, counts, image) for name, touch, _, _, counts in rows]
     estimates = [TouchEstimate(0, Finger.THUMB, p, force) for _, _, p, force, _ in rows]
-    report = real_report(patches, estimates, 0.5)
+    report = real_report(patches, estimates, 0.5, draws=200)
     assert report["recordings"]["one"]["accuracy"] == 1.0 and report["recordings"]["two"]["accuracy"] == 0.0
-    assert report["pooled"] == {
+    pooled = report["pooled"]
+    assert {name: value for name, value in pooled.items() if not name.endswith("_interval")} == {
         "touches": 2, "hovers": 2, "auroc": 0.75, "darkness_auroc": 0.5, "true_positive_rate": 0.5, "false_positive_rate": 0.5,
-        "accuracy": 0.5, "force_spearman": None,
+        "accuracy": 0.5, "force_spearman": None, "force_spearman_above_floor": None,
     }  # fmt: skip
+    assert pooled["accuracy_interval"] == [0.0, 1.0] and pooled["force_spearman_interval"] is None
+
+
+def test_force_is_ranked_with_and_without_the_sensors_floor() -> None:
+    image = np.zeros((100, 100, 3), np.uint8)
+    counts = [0.0, 3.0, 20.0, 30.0, 40.0, 50.0, np.nan]
+    told_n = [3.0, 2.5, 1.0, 1.5, 2.0, 2.2, 3.5]
+    patches = [RealPatch("x", "one", True, count, image) for count in counts] + [RealPatch("x", "one", False, 99.0, image)]
+    estimates = [TouchEstimate(0, Finger.THUMB, 0.9, force_n) for force_n in (*told_n, 0.0)]
+    scores = real_report(patches, estimates, 0.5, draws=200)["recordings"]["one"]
+    assert scores["force_spearman_above_floor"] == 1.0 and scores["force_spearman"] == pytest.approx(1 - 6 * 50 / (6 * 35), abs=1e-4)
+    low, high = scores["force_spearman_interval"]
+    assert -1 <= low < high <= 1
 
 
 @pytest.mark.real_data
