@@ -9,25 +9,21 @@ from math import ceil
 
 from egotouch_sdk.errors import ProtocolError
 from egotouch_sdk.server.access import Access, OpenAccess
-from egotouch_sdk.server.batch import Batch, Encoded
+from egotouch_sdk.server.batch import Batch
+from egotouch_sdk.server.batch_message import batch_message
 from egotouch_sdk.server.close_code import Close, CloseCode
 from egotouch_sdk.server.journal import Journal
 from egotouch_sdk.server.limits import MILLISECOND_NS, SECOND_NS, Limits
 from egotouch_sdk.server.outbox import Outbox
-from egotouch_sdk.server.pointer_view import Pointer, PointerView, Shown
+from egotouch_sdk.server.pointer_view import PointerView
 from egotouch_sdk.server.pushing import PushTarget
 from egotouch_sdk.server.rate import TokenBucket
+from egotouch_sdk.server.resuming import held_pointers, missed_batches
 from egotouch_sdk.server.subprotocol import Subprotocol
 from egotouch_sdk.server.subscription import Subscription
 from egotouch_sdk.server.welcome import PROTOCOL_MINOR, ServerInfo
-from egotouch_sdk.touch_event import TouchEvent
 from egotouch_sdk.wire import event_to_proto
 from egotouch_sdk.wire.gen import egotouch_pb2 as pb
-
-#: A message that is older when it is sent is made anew, so that `sent_ns` is true to this.
-SHARED_NS = 2 * MILLISECOND_NS
-#: More pointers than two hands have; a Resume that names more is malformed.
-MAX_HELD = 64
 
 
 class State(StrEnum):
@@ -129,8 +125,8 @@ class Session:
             return
         self.client = hello.client
         self.subscription = Subscription.from_proto(hello.subscribe)
-        held = _held(hello.resume)
-        missed = self._missed(hello.resume, held, now_ns) if hello.HasField("resume") else None
+        held = held_pointers(hello.resume)
+        missed = missed_batches(self._journal, hello.resume, held, now_ns) if hello.HasField("resume") else None
         self._view = PointerView(self.subscription, held if missed is not None else None)
         self._offset = self._journal.offset if missed is None else hello.resume.offset
         self.state = State.LIVE
@@ -140,20 +136,6 @@ class Session:
         for batch in missed or ():
             self._outbox.push(batch)
         self._progress_ns = now_ns
-
-    def _missed(self, resume: pb.Resume, held: dict[int, Pointer], now_ns: int) -> tuple[Batch, ...] | None:
-        """What the client missed; None when it cannot go on, also because a contact it holds ended before what is remembered."""
-        missed = self._journal.since(resume.epoch, resume.offset, now_ns)
-        if missed is None:
-            return None
-        open_now = {event.pointer_id for event in self._journal.pointers}
-        contacts_now = {(event.pointer_id, event.contact_id) for event in self._journal.contacts.values()}
-        in_gap = {event.pointer_id for batch in missed for event in batch.events}
-        for pointer_id, pointer in held.items():
-            goes_on = (pointer_id, pointer.contact_id) in contacts_now if pointer.is_down else pointer_id in open_now
-            if not goes_on and pointer_id not in in_gap:
-                return None
-        return missed
 
     def _welcome(self, hello: pb.Hello, token: str, recovered: bool, now_ns: int) -> pb.Welcome:
         wanted = [event_to_proto(event) for event in self._journal.pointers if self.subscription.wants_place(event)]
@@ -248,7 +230,7 @@ class Session:
                 self._sent_ns = now_ns
                 if self.subscription.max_rate_hz:
                     self._next_stream_ns = now_ns + ceil(SECOND_NS / self.subscription.max_rate_hz)
-                return self._encode(batch, shown, now_ns)
+                return batch_message(batch, shown, self._offset, now_ns, self._subprotocol, latest_only=self.subscription.latest_only)
         return None
 
     def tick(self, now_ns: int) -> None:
@@ -295,29 +277,6 @@ class Session:
         self._sent_ns = now_ns
         return self._subprotocol.encode(message)
 
-    def _encode(self, batch: Batch, shown: Shown, now_ns: int) -> bytes | str:
-        late, events = shown
-        key = (self._subprotocol.name, self.subscription.latest_only, late, self._offset, tuple(map(id, events)))
-        shared = batch.encoded.get(key)
-        if shared is not None and now_ns - shared.sent_ns <= SHARED_NS:
-            return shared.data
-        content = pb.EventBatch(
-            frame_index=batch.frame_index,
-            timestamp_ns=batch.timestamp_ns,
-            sent_ns=now_ns,
-            events=[self._event(event) for event in events],
-            late=late,
-        )
-        data = self._subprotocol.encode(pb.ServerMessage(offset=self._offset, batch=content))
-        batch.encoded[key] = Encoded(now_ns, events, data)
-        return data
-
-    def _event(self, event: TouchEvent) -> pb.TouchEvent:
-        message = event_to_proto(event)
-        if self.subscription.latest_only:
-            del message.coalesced[:]
-        return message
-
 
 _Handler = Callable[[Session, pb.ClientMessage, int], None]
 _PUSHES = frozenset({"frame", "hands", "simulated"})
@@ -335,16 +294,6 @@ _HANDLERS: dict[State, dict[str | None, _Handler]] = {
     },
     State.CLOSED: {},
 }
-
-
-def _held(resume: pb.Resume) -> dict[int, Pointer]:
-    if len(resume.held) > MAX_HELD:
-        raise ProtocolError(f"a Resume holds {len(resume.held)} pointers", hint=f"Name at most {MAX_HELD}")
-    return {held.pointer_id: _pointer(held) for held in resume.held}
-
-
-def _pointer(held: pb.HeldPointer) -> Pointer:
-    return Pointer(held.contact_id, True, held.dragging, held.pressing) if held.contact_id else Pointer()
 
 
 def _shortened(reason: str) -> str:
