@@ -56,7 +56,7 @@ def interval_of_recordings(
 
 
 def _stretches(length: int, block: int, rng: np.random.Generator) -> Indices:
-    block = min(block, length)
+    block = min(block, max(length // 5, 1))
     starts = rng.integers(0, length - block + 1, -(-length // block))
     return np.asarray((starts[:, None] + np.arange(block)).ravel()[:length], np.int64)
 

@@ -37,15 +37,22 @@ def test_rows_are_drawn_in_stretches_of_whole_recordings() -> None:
         seen.append(rows)
         return float(rows.mean())
 
-    interval_of_recordings([40, 7], note, block=5, draws=50)
+    interval_of_recordings([40, 25], note, block=5, draws=50)
+    assert {len(rows) for rows in seen} == {80, 65, 50}
     for rows in seen:
-        lengths = {40, 7}
-        first = 40 if len(rows) in (80, 47) and rows[:40].max() < 40 else 7
-        assert len(rows) in {80, 47, 14} and first in lengths
-        for start in range(0, first, 5):
-            stretch = rows[start : min(start + 5, first)]
+        for stretch in rows.reshape(-1, 5):
             assert (np.diff(stretch) == 1).all() and (stretch < 40).all() == (stretch[0] < 40)
-    assert len({len(rows) for rows in seen}) == 3
+
+
+def test_a_short_recording_is_drawn_in_fifths() -> None:
+    seen: list[Indices] = []
+
+    def note(rows: Indices) -> float:
+        seen.append(rows)
+        return 1.0
+
+    interval_of_recordings([10], note, block=15, draws=20)
+    assert all((np.diff(rows.reshape(-1, 2)) == 1).all() for rows in seen) and len({tuple(rows) for rows in seen}) > 5
 
 
 def test_near_copies_do_not_narrow_the_interval() -> None:
