@@ -33,7 +33,7 @@ MAX_SHIFT_PX = 12.0
 #: Largest error of the finger's direction (our choice).
 MAX_TURN_RAD = radians(12.0)
 #: Range of the patch scale error.
-SCALE_RANGE = (0.75, 1.3)
+SCALE_RANGE = (0.75, 1.45)
 #: Pixels a camera has on the patch's 40 mm: 20 for 640x480 at 60 cm, 100 and more for 1080p at 30 cm.
 NATIVE_RANGE_PX = (20.0, 130.0)
 
@@ -98,7 +98,7 @@ def draw_settings(rng: np.random.Generator) -> CameraSettings:
         tone_gains=_tone_gains(rng),
         shift_px=(_bounded_normal(rng, 4.5, MAX_SHIFT_PX), _bounded_normal(rng, 5.0, MAX_SHIFT_PX)),
         turn_rad=_bounded_normal(rng, MAX_TURN_RAD / 2, MAX_TURN_RAD),
-        scale=float(np.clip(exp(rng.normal(0, 0.13)), *SCALE_RANGE)),
+        scale=float(np.clip(exp(rng.normal(0.03, 0.16)), *SCALE_RANGE)),
         native_px=_native_px(rng),
         finger_motion_px=_motion(rng, share=0.3, longest_px=14.0),
         camera_motion_px=_motion(rng, share=0.15, longest_px=6.0),

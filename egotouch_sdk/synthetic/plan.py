@@ -14,7 +14,8 @@ from egotouch_sdk.synthetic.pose import Rotations, open_hand, pointing_hand
 
 PLACES = ("palm", "back_of_hand", "inner_forearm", "outer_forearm")
 _PLACE_ODDS = (0.46, 0.20, 0.20, 0.14)
-_FINGER_ODDS = (0.30, 0.34, 0.14, 0.12, 0.10)
+_FINGER_ODDS = (0.27, 0.37, 0.14, 0.12, 0.10)
+_THUMB_ON_PALM = 0.7
 _LEVEL_OF_SITES = 1
 
 #: Azimuth (degrees) of the receiving arm in the image for each place: how wearers hold it in front of them (our choice).
@@ -59,10 +60,14 @@ def sites(rig: HandRig, place: str) -> Indices:
     return np.flatnonzero(mask)
 
 
-def draw_plan(rng: np.random.Generator, host: HandRig) -> ScenePlan:
-    """A random scene; it may turn out impossible (hidden tip, colliding arms) once posed."""
+def draw_subject(rng: np.random.Generator) -> tuple[Finger, str]:
+    """Which finger touches where. Drawn apart from the pose, so that what is often hidden or blocked does not become rare."""
     finger = list(Finger)[rng.choice(5, p=_FINGER_ODDS)]
-    place = "palm" if finger is Finger.THUMB and rng.random() < 0.6 else PLACES[rng.choice(4, p=_PLACE_ODDS)]
+    return finger, "palm" if finger is Finger.THUMB and rng.random() < _THUMB_ON_PALM else PLACES[rng.choice(4, p=_PLACE_ODDS)]
+
+
+def draw_plan(rng: np.random.Generator, host: HandRig, finger: Finger, place: str) -> ScenePlan:
+    """A random pose of that finger over that place; it may turn out impossible (hidden tip, colliding arms) once posed."""
     thumb = finger is Finger.THUMB
     return ScenePlan(
         place=place,
@@ -74,8 +79,8 @@ def draw_plan(rng: np.random.Generator, host: HandRig) -> ScenePlan:
         view_tilt_rad=np.radians(rng.uniform(0, 38)),
         view_azimuth_rad=rng.uniform(0, 2 * np.pi),
         distance_m=rng.uniform(0.26, 0.5),
-        heading_rad=np.radians(rng.uniform(70, 120) if thumb else rng.uniform(75, 172)),
+        heading_rad=np.radians(rng.uniform(40, 130) if thumb else rng.uniform(75, 172)),
         pitch_rad=np.radians(rng.uniform(8, 48) if thumb else rng.uniform(12, 60)),
-        roll_rad=np.radians(rng.uniform(-25, 25)),
+        roll_rad=np.radians(rng.uniform(-60, 15) if thumb else rng.uniform(-25, 25)),
         tissue=draw_tissue(rng, place),
     )

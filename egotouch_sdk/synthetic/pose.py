@@ -38,7 +38,7 @@ def pointing_hand(rng: np.random.Generator, finger: Finger) -> Rotations:
         c = rng.uniform(0.75, 1.05) * tuck
         _set(pose, other, (62 * c, 88 * c, 48 * c), (1.5 - i) * 2)
     if finger is Finger.THUMB:
-        pose["thumb-metacarpal"] = (rng.uniform(-12, 8), rng.uniform(-10, 10), 0.0)
+        pose["thumb-metacarpal"] = (rng.uniform(-32, 2), rng.uniform(5, 42), rng.uniform(-42, 5))
         pose["thumb-phalanx-proximal"] = (rng.uniform(-5, 15), 0.0, 0.0)
         pose["thumb-phalanx-distal"] = (rng.uniform(-15, 20), 0.0, 0.0)
     else:

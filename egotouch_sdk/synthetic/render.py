@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ctypes
 import functools
 import os
 import re
@@ -15,7 +16,7 @@ import cv2
 import numpy as np
 import numpy.typing as npt
 
-from egotouch_sdk.errors import MissingExtraError
+from egotouch_sdk.errors import ConfigError, MissingExtraError
 from egotouch_sdk.synthetic.lights import KEY_DISTANCE_M, Lights
 from egotouch_sdk.synthetic.linalg import Array, unit
 from egotouch_sdk.synthetic.mesh import vertex_normals
@@ -31,6 +32,13 @@ SEGMENT_BACKGROUND, SEGMENT_HOST, SEGMENT_TOUCHING = 0, 1, 2
 #: drjit 1.5 aborts on LLVM 15 ("Cannot select: fminimum"); newer ones work (measured).
 _LLVM_GLOBS = ("lib/llvm-*/lib/libLLVM*.so*", "lib/*/libLLVM*.so*")
 _LLVM_MIN = 16
+#: Mitsuba's variants, fastest first.
+VARIANTS = {"gpu": "cuda_ad_rgb", "llvm": "llvm_ad_rgb", "scalar": "scalar_rgb"}
+RENDERER_VARIABLE = "EGOTOUCH_RENDERER"
+_NEEDS = {
+    "gpu": "It needs an NVIDIA GPU whose driver brings libnvoptix",
+    "llvm": "No LLVM 16 or newer found: install one, e.g. apt install libllvm19",
+}
 
 
 def _find_llvm() -> str | None:
@@ -41,10 +49,14 @@ def _find_llvm() -> str | None:
 
 @functools.cache
 def mitsuba(threads: int = 1) -> Any:
-    """The Mitsuba module with its fastest usable CPU variant set; warns when only the slow scalar one is left.
+    """The Mitsuba module with its fastest usable variant set: NVIDIA's GPU, LLVM, else the slow scalar one, which is warned of.
 
-    Raises `MissingExtraError` when Mitsuba is not installed.
+    `$EGOTOUCH_RENDERER` (a name of `VARIANTS`) decides instead. Raises `MissingExtraError` when Mitsuba is not installed,
+    `ConfigError` for an unknown name or one that cannot be used here.
     """
+    wanted = os.environ.get(RENDERER_VARIABLE, "")
+    if wanted and wanted not in VARIANTS:
+        raise ConfigError(f"{RENDERER_VARIABLE} is {wanted!r}", hint=f"Use one of {', '.join(VARIANTS)}, or unset it")
     if "DRJIT_LIBLLVM_PATH" not in os.environ and (path := _find_llvm()):
         os.environ["DRJIT_LIBLLVM_PATH"] = path
     try:
@@ -52,15 +64,28 @@ def mitsuba(threads: int = 1) -> Any:
         import mitsuba as mi
     except ImportError as error:
         raise MissingExtraError("Rendering synthetic touches", "synthetic") from error
-    if "DRJIT_LIBLLVM_PATH" in os.environ:
-        mi.set_variant("llvm_ad_rgb")
+    usable = {"gpu": _sees_gpu(), "llvm": "DRJIT_LIBLLVM_PATH" in os.environ, "scalar": True}
+    if wanted and not usable[wanted]:
+        raise ConfigError(f"{RENDERER_VARIABLE} is {wanted!r}, which does not run here", hint=_NEEDS[wanted])
+    chosen = wanted or next(name for name in VARIANTS if usable[name])
+    if chosen == "scalar" and not wanted:
+        warnings.warn(f"Rendering takes about 5 times longer than it could. {_NEEDS['llvm']}", stacklevel=2)
+    mi.set_variant(VARIANTS[chosen])
+    if chosen == "llvm":
         drjit.set_thread_count(threads)
-    else:
-        warnings.warn(
-            "No LLVM 16 or newer found: rendering takes about 5 times longer. Install one, e.g. apt install libllvm19", stacklevel=2
-        )
-        mi.set_variant("scalar_rgb")
     return mi
+
+
+def _sees_gpu() -> bool:
+    """True where the NVIDIA driver and its ray tracing library are there and a card answers."""
+    for library in ("libcuda.so.1", "libnvoptix.so.1"):
+        try:
+            ctypes.CDLL(library)
+        except OSError:
+            return False
+    count = ctypes.c_int(0)
+    cuda = ctypes.CDLL("libcuda.so.1")
+    return cuda.cuInit(0) == 0 and cuda.cuDeviceGetCount(ctypes.byref(count)) == 0 and count.value > 0
 
 
 @dataclass(frozen=True, slots=True)

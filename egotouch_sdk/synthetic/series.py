@@ -13,7 +13,7 @@ from egotouch_sdk.synthetic.backdrop import draw_backdrop
 from egotouch_sdk.synthetic.hand_rig import HandRig
 from egotouch_sdk.synthetic.lights import draw_lights
 from egotouch_sdk.synthetic.linalg import Array, reject_from, unit
-from egotouch_sdk.synthetic.plan import draw_plan
+from egotouch_sdk.synthetic.plan import draw_plan, draw_subject
 from egotouch_sdk.synthetic.render import Camera, Layers, render_layers
 from egotouch_sdk.synthetic.skin import SkinIdentity
 from egotouch_sdk.synthetic.stage import ImpossibleSceneError, Stage, Touch
@@ -37,8 +37,9 @@ class LabelledLayers:
 
 def draw_stage(rng: np.random.Generator, host: HandRig, touching: HandRig, identity: SkinIdentity) -> Stage:
     """Draw until a scene is possible (about one in six is), first on coarse meshes; raises `ImpossibleSceneError` after 400 draws."""
+    finger, place = draw_subject(rng)
     for _ in range(_MAX_DRAWS):
-        plan = draw_plan(rng, host)
+        plan = draw_plan(rng, host, finger, place)
         try:
             Stage(plan, host, touching, identity, detail=False)
             return Stage(plan, host, touching, identity, detail=True)

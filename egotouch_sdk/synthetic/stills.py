@@ -15,7 +15,7 @@ from egotouch_sdk.synthetic.hand_rig import HandRig
 from egotouch_sdk.synthetic.host_truth import HostTruth, draw_camera, view_of
 from egotouch_sdk.synthetic.lights import draw_lights
 from egotouch_sdk.synthetic.patches_job import participant
-from egotouch_sdk.synthetic.plan import draw_plan
+from egotouch_sdk.synthetic.plan import draw_plan, draw_subject
 from egotouch_sdk.synthetic.render import Camera, Layers, render_layers
 from egotouch_sdk.synthetic.skin import SkinIdentity
 from egotouch_sdk.synthetic.stage import ImpossibleSceneError, Stage, Touch
@@ -30,8 +30,9 @@ def draw_scene(
     rng: np.random.Generator, host: HandRig, touching: HandRig, identity: SkinIdentity, detail: bool = True
 ) -> tuple[Stage, Touch, Camera]:
     """A random possible scene, three of four with a touch, and a camera that sees both hands; raises `ImpossibleSceneError`."""
+    finger, place = draw_subject(rng)
     for _ in range(_MAX_DRAWS):
-        plan = draw_plan(rng, host)
+        plan = draw_plan(rng, host, finger, place)
         depth = {"force_n": float(rng.uniform(0.2, 3.5))} if rng.random() < _TOUCH_SHARE else {"hover_mm": float(rng.uniform(1.0, 25.0))}
         try:
             stage = Stage(plan, host, touching, identity, detail=False)

@@ -33,6 +33,7 @@ class TouchModule(lightning.LightningModule):
         self.touch_weight = (1 - touch_share) / touch_share
         self.network = TouchNetwork(recipe.drop_path, recipe.dropout).use_fast_layout()
         self.hover_head = nn.Linear(HIDDEN, 1)
+        self.sigma_head = nn.Linear(HIDDEN, 1)
         self.average = AveragedModel(self.network, multi_avg_fn=get_ema_multi_avg_fn(recipe.average_decay), use_buffers=True)
         self.held_out: list[tuple[Tensor, ...]] = []
 
@@ -57,6 +58,11 @@ class TouchModule(lightning.LightningModule):
         loss = touch_loss + recipe.force_weight * force_loss
         if recipe.hover_weight:
             loss = loss + recipe.hover_weight * mse_loss(self.hover_head(hidden)[:, 0], hover_target(batch.hover_mm))
+        if recipe.sigma_weight:
+            log_sigma = self.sigma_head(hidden.detach())[:, 0]
+            error = (force_n.detach() - batch.force_n) / FORCE_MAX_N
+            surprise = log_sigma + 0.5 * (error * torch.exp(-log_sigma)) ** 2
+            loss = loss + recipe.sigma_weight * (batch.touch * surprise).sum() / batch.touch.sum().clamp(min=1)
         self.log("loss", touch_loss, prog_bar=True, on_step=False, on_epoch=True, batch_size=len(logit))
         self.log("force_loss", force_loss, prog_bar=True, on_step=False, on_epoch=True, batch_size=len(logit))
         return loss
@@ -72,7 +78,7 @@ class TouchModule(lightning.LightningModule):
         self.held_out.append((logit, force_n, batch.touch, batch.force_n))
 
     def on_validation_epoch_end(self) -> None:
-        logit, force_n, touch, true_n = (torch.cat(parts).float().numpy() for parts in zip(*self.held_out, strict=True))
+        logit, force_n, touch, true_n = (torch.cat(parts).float().cpu().numpy() for parts in zip(*self.held_out, strict=True))
         self.held_out.clear()
         is_touch = touch > 0.5
         if is_touch.all() or not is_touch.any():
@@ -83,7 +89,8 @@ class TouchModule(lightning.LightningModule):
 
     def configure_optimizers(self) -> Any:
         recipe = self.recipe
-        learned = [*self.network.named_parameters(), *self.hover_head.named_parameters()]
+        heads = (self.network, self.hover_head, self.sigma_head)
+        learned = [parameter for head in heads for parameter in head.named_parameters()]
         decayed = [p for name, p in learned if p.ndim > 1 and not name.endswith("scale")]
         plain = [p for name, p in learned if p.ndim <= 1 or name.endswith("scale")]
         groups = [{"params": decayed, "weight_decay": recipe.weight_decay}, {"params": plain, "weight_decay": 0.0}]

@@ -18,7 +18,8 @@ class Recipe:
     `epochs` counts passes over the renders, every pass with new cameras. Over `warmup_share` of the steps the learning rate
     rises, then it falls along a cosine. `average_decay` is the decay per step of the averaged weights that are shipped, 0 for none.
     `picture_px` below 100 shrinks the pictures: 64 is 2.4 times faster and good for a first stage to start the real run from.
-    `label_smoothing` moves targets towards one half. `hover_weight` weighs an auxiliary hover-height output, dropped on export.
+    `label_smoothing` moves targets towards one half. `hover_weight` weighs an auxiliary hover-height output, dropped on export,
+    `sigma_weight` the standard error of the force, which learns from the network's errors and does not move them.
     `held_out_share` of the patches, whole participants, choose the threshold and never train.
     """
 
@@ -30,6 +31,7 @@ class Recipe:
     warmup_share: float = 0.1
     force_weight: float = 5.0
     hover_weight: float = 2.0
+    sigma_weight: float = 1.0
     label_smoothing: float = 0.04
     drop_path: float = 0.05
     dropout: float = 0.1
@@ -44,7 +46,7 @@ class Recipe:
             raise ConfigError(f"recipe has {counts}; need 1, 2, 1 or more")
         if not 32 <= self.picture_px <= PATCH_PX:
             raise ConfigError(f"recipe has picture_px={self.picture_px}, need 32..{PATCH_PX}")
-        if self.learning_rate <= 0 or min(self.weight_decay, self.force_weight, self.hover_weight) < 0:
+        if self.learning_rate <= 0 or min(self.weight_decay, self.force_weight, self.hover_weight, self.sigma_weight) < 0:
             raise ConfigError("recipe has a learning rate that is not positive or a negative weight")
         for name in ("warmup_share", "label_smoothing", "drop_path", "dropout", "average_decay", "held_out_share"):
             if not 0.0 <= getattr(self, name) < 1.0:
@@ -55,7 +57,7 @@ class Recipe:
         """The paper's own recipe, without our additions."""
         return cls(
             epochs=8, batch=128, learning_rate=3e-4, weight_decay=0.0, warmup_share=0.0, hover_weight=0.0,
-            label_smoothing=0.0, drop_path=0.0, dropout=0.0, average_decay=0.0,
+            sigma_weight=0.0, label_smoothing=0.0, drop_path=0.0, dropout=0.0, average_decay=0.0,
         )  # fmt: skip
 
     def to_dict(self) -> dict[str, Any]:

@@ -90,7 +90,8 @@ def fit(module: TouchModule, train_patches: list[RenderedPatch], validation: Sam
         drop_last=len(train_patches) >= 2 * recipe.batch, persistent_workers=False, prefetch_factor=3 if machine.workers else None,
     )  # fmt: skip
     trainer = lightning.Trainer(
-        accelerator="cpu",
+        accelerator="auto",
+        devices=1,
         max_epochs=recipe.epochs,
         max_time=None if machine.max_minutes is None else timedelta(minutes=machine.max_minutes),
         default_root_dir=out,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -88,7 +89,8 @@ def read_shard(path: Path) -> list[RenderedPatch]:
 
 def read_folder(folder: Path) -> list[RenderedPatch]:
     """All patches of all shards in a folder, in name order; raises `SourceError` when there are none."""
-    patches = [patch for path in sorted(folder.glob("*.npz")) for patch in read_shard(path)]
+    with ThreadPoolExecutor() as readers:
+        patches = [patch for shard in readers.map(read_shard, sorted(folder.glob("*.npz"))) for patch in shard]
     if not patches:
         raise SourceError(f"no rendered patches in {folder}", hint="Render some first: egotouch synth patches --help")
     return patches
