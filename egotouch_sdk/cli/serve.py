@@ -38,6 +38,7 @@ EXAMPLES = """\
   egotouch serve client --lan            a headset sends its own camera frames, with or without its hands
   egotouch serve taps.yaml               a script, over and over
   egotouch serve 0 --lan                 headsets on the same network: open the address or scan the code
+  egotouch serve 0 --lan --keypad        the same with a phone's keys on the palm, to be dialled in a headset
   egotouch serve clip.mp4 --once         a video, once
   egotouch serve 0 --publish nats://hub:4222 --session booth-3
                                          to a NATS server too: egotouch.v1.booth-3.palm.down and so on
@@ -54,6 +55,7 @@ EGOTOUCH_NATS_CREDENTIALS. While NATS is away nothing is kept beyond 250 ms; ope
 """
 SIMULATOR = "simulator"
 CLIENT = "client"
+KEYPAD_PAGE = "keypad/"
 DEFAULT_PORT = 8765
 #: What asyncio calls every interface, IPv4 and IPv6.
 ALL_INTERFACES = ""
@@ -82,6 +84,7 @@ def add_server_options(parser: argparse._ActionsContainer) -> None:
     parser.add_argument("--publish-json", action="store_true", help="with --publish: events as JSON instead of protobuf")
     parser.add_argument("--session", metavar="NAME", help="with --publish: name in egotouch.v1.NAME.SURFACE.TYPE (default: this machine's)")
     parser.add_argument("--no-page", action="store_true", help="serve no page, only events")
+    parser.add_argument("--keypad", action="store_true", help="show the skin keypad, /keypad/, in place of the page")
     parser.add_argument("--debug-view", action="store_true", help="show video on the page, and let clients ask for the landmarks of hands")
 
 
@@ -91,6 +94,8 @@ def run(options: argparse.Namespace) -> int:
 
     if options.source is None:
         raise ConfigError("egotouch serve needs a SOURCE", hint="Give a camera (0), a file, simulator or client")
+    if options.keypad and options.no_page:
+        raise ConfigError("--keypad shows a page and --no-page serves none", hint="Give one of them")
     lan = _prepare_lan(options)
     source, push = _open(options)
     with source:
@@ -192,7 +197,7 @@ def _settings(options: argparse.Namespace, lan: Lan | None, config: Any, push: P
     }
     features = [name for name, on in offered.items() if on]
     token = lan.token if lan else load_token(options.token_file) if options.token_file else ""
-    access = lan.access(lambda code: _show_code(lan, options.port, code)) if lan else TokenAccess(token) if token else OpenAccess()
+    access = lan.access(lambda code: _show_code(lan, options, code)) if lan else TokenAccess(token) if token else OpenAccess()
     return Settings(
         host=options.host or (ALL_INTERFACES if lan else "127.0.0.1"),
         port=options.port,
@@ -218,7 +223,7 @@ def _introduce(options: argparse.Namespace, lan: Lan | None, server: EventServer
 
     scheme = "https" if lan else "http"
     hosts = (*lan.addresses, *lan.names[1:]) if lan else (server.settings.host,)
-    page = "simulator.html" if options.source == SIMULATOR else ""
+    page = KEYPAD_PAGE if options.keypad else "simulator.html" if options.source == SIMULATOR else ""
     print(f"Touch events of {options.source}; Ctrl-C stops.")
     for host in hosts:
         url = page_url(scheme, host, server.port)
@@ -238,10 +243,10 @@ def _introduce(options: argparse.Namespace, lan: Lan | None, server: EventServer
         open_browser(page_url(scheme, hosts[0], server.port) + page)
 
 
-def _show_code(lan: Lan, port: int, code: str) -> None:
+def _show_code(lan: Lan, options: argparse.Namespace, code: str) -> None:
     from egotouch_sdk.server.lan import qr_code
 
-    url = lan.pairing_url(port, code)
+    url = lan.pairing_url(options.port, code, KEYPAD_PAGE if options.keypad else "")
     print(f"  pairing    {code}  (two minutes, one headset)\n  or open    {url}\n{qr_code(url)}", flush=True)
 
 

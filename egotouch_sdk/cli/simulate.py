@@ -15,6 +15,7 @@ from egotouch_sdk.errors import ConfigError
 EXAMPLES = """\
   egotouch simulate                      serve a page on which a mouse, pen or touch screen plays the finger, and open it
   egotouch simulate --lan                the same for a phone or headset in this network
+  egotouch simulate --keypad             a phone's keys on the palm or forearm, dialled with the mouse
   egotouch simulate taps --serve         serve a script's events over and over, as a camera's
   egotouch simulate taps                 print them: a script that comes with the package, at its own speed
   egotouch simulate mine.yaml --fast     a script of your own, as fast as it goes

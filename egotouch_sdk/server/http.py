@@ -60,6 +60,8 @@ class HttpFront:
                 return _response(HTTPStatus.UNAUTHORIZED, b"Send the token: Authorization: Bearer <token>\n")
             return self._send_video() if path == "/debug.jpg" else self._send_metrics()
         page = self._pages.find(request.path)
+        if page is None and self._pages.is_folder(request.path):
+            return _response(HTTPStatus.PERMANENT_REDIRECT, b"", location=f"{path}/")
         if page is None:
             return _response(HTTPStatus.NOT_FOUND, b"There is nothing here\n")
         return _response(HTTPStatus.OK, page.body, page.mime_type)
@@ -75,6 +77,8 @@ class HttpFront:
         return _response(HTTPStatus.OK, self._metrics.text().encode(), "text/plain; version=0.0.4; charset=utf-8")
 
 
-def _response(status: HTTPStatus, body: bytes, mime_type: str = "text/plain; charset=utf-8") -> Response:
+def _response(status: HTTPStatus, body: bytes, mime_type: str = "text/plain; charset=utf-8", location: str | None = None) -> Response:
     headers = Headers(SECURITY_HEADERS | {"Content-Type": mime_type, "Content-Length": str(len(body)), "Connection": "close"})
+    if location is not None:
+        headers["Location"] = location
     return Response(status.value, status.phrase, headers, body)

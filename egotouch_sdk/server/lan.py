@@ -41,9 +41,9 @@ class Lan:
         """Asks clients for the token or for a pairing code; `show_code` shows each code to the person at the server."""
         return TokenAccess(self.token, new_pairing_code, show_code)
 
-    def pairing_url(self, port: int, code: str) -> str:
+    def pairing_url(self, port: int, code: str, page: str = "") -> str:
         """What to open on the headset: code and fingerprint are in the fragment, which browsers keep to themselves."""
-        return f"{page_url('https', self.addresses[0], port)}#c={code}&fp={self.fingerprint}"
+        return f"{page_url('https', self.addresses[0], port)}{page}#c={code}&fp={self.fingerprint}"
 
 
 def page_url(scheme: str, host: str, port: int) -> str:

@@ -47,7 +47,10 @@ class Page:
 
 
 class Pages:
-    """The files of a folder, by the path under which they are served; read once, so that no request ever touches the disk."""
+    """The files of a folder, by the path under which they are served; read once, so that no request ever touches the disk.
+
+    A folder with an `index.html` is served under its own path, which ends in a slash.
+    """
 
     def __init__(self, folder: Path | None = SHIPPED_PAGE) -> None:
         self._pages: dict[str, Page] = {}
@@ -55,9 +58,14 @@ class Pages:
             if path.is_file() and path.suffix.lower() in MIME_TYPES:
                 relative = path.relative_to(folder or path).as_posix()
                 self._pages[f"/{relative}"] = Page(MIME_TYPES[path.suffix.lower()], path.read_bytes())
-        if "/index.html" in self._pages:
-            self._pages["/"] = self._pages["/index.html"]
+        for served in tuple(self._pages):
+            if served.endswith("/index.html"):
+                self._pages[served.removesuffix("index.html")] = self._pages[served]
 
     def find(self, target: str) -> Page | None:
         """The file at a request's target, whose query does not matter."""
         return self._pages.get(target.partition("?")[0])
+
+    def is_folder(self, target: str) -> bool:
+        """True for the path of a folder with an `index.html` that lacks its slash."""
+        return f"{target.partition('?')[0]}/" in self._pages

@@ -36,3 +36,8 @@ def test_what_prints_does_not_serve(arguments: list[str], served: list[Any], cap
     assert main(["simulate", *arguments]) == 1
     assert "Give a script, without --serve" in capsys.readouterr().err
     assert served == []
+
+
+def test_the_keypad_is_a_page(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["simulate", "--keypad", "--no-page", "--port", "0"]) == 1
+    assert "Give one of them" in capsys.readouterr().err
