@@ -17,14 +17,30 @@ from egotouch_sdk.synthetic.skin import SkinIdentity
 
 COARSE_LEVEL = 2
 FINE_LEVEL = 4
-_NEAR_HOST_M = 0.036
-_NEAR_TIP_M = 0.034
-_AROUND_M = 0.065
 _DENT_REACH_M = 0.045
+#: Parts of the receiving limb that face away from the contact by more than this cosine stay coarse.
+_FAR_SIDE = -0.35
 
 
 class ImpossibleSceneError(Exception):
     """The drawn scene cannot be: the message says why."""
+
+
+@dataclass(frozen=True, slots=True)
+class Fineness:
+    """How far from the contact, and on the finger from its DIP joint, meshes are split: radii in metres, widest first.
+
+    The last radius has 0.43 mm edges, the one before 0.87 mm and so on; at most four radii.
+    """
+
+    host_m: tuple[float, ...]
+    touching_m: tuple[float, ...]
+
+
+#: For pictures of the whole hand, and for series with room for shifts.
+WIDE_DETAIL = Fineness((0.065, 0.036), (0.065, 0.034))
+#: For one patch of 40 mm whose finger stays within 10 mm: half the faces of `WIDE_DETAIL`.
+PATCH_DETAIL = Fineness((0.09, 0.044, 0.026), (0.075, 0.042, 0.028))
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,14 +78,22 @@ class Aim:
 class Stage:
     """A scene plan made flesh.
 
-    `detail` False poses coarse meshes, enough to find out whether the scene is possible (raises `ImpossibleSceneError`).
-    `aim` fixes the camera and the finger's direction from outside, for clips; the scene is then taken as possible.
+    `fineness` says how fine the meshes are; `detail` False poses coarse ones, enough to find out whether the scene is possible
+    (raises `ImpossibleSceneError`). `aim` fixes the camera and the finger's direction from outside, for clips; the scene is then
+    taken as possible.
     All in the receiving hand's own space, metres; `normal` is the skin's at the contact, `contact` the point, `heading` where the finger
     points along the skin.
     """
 
     def __init__(
-        self, plan: ScenePlan, host: HandRig, touching: HandRig, identity: SkinIdentity, detail: bool, aim: Aim | None = None
+        self,
+        plan: ScenePlan,
+        host: HandRig,
+        touching: HandRig,
+        identity: SkinIdentity,
+        detail: bool,
+        aim: Aim | None = None,
+        fineness: Fineness = WIDE_DETAIL,
     ) -> None:
         self.plan, self._host, self._touching, self._identity = plan, host, touching, identity
         joints = touching.finger_joint_ids(plan.finger)
@@ -78,9 +102,13 @@ class Stage:
         if detail:
             from_site = ((host.vertices - host.vertices[plan.site]) ** 2).sum(1) * scale**2
             from_dip = ((touching.vertices - touching.bind[self._dip, :3, 3]) ** 2).sum(1)
+            same_side = host.normals @ host.normals[plan.site] > _FAR_SIDE
             on_finger = touching.finger_weight(plan.finger) > 0.3
-            self._host_ids, self._host_faces = host.mixed_faces(from_site < _AROUND_M**2, from_site < _NEAR_HOST_M**2)
-            self._touch_ids, self._touch_faces = touching.mixed_faces(from_dip < _AROUND_M**2, (from_dip < _NEAR_TIP_M**2) & on_finger)
+            *_, tip_m = fineness.touching_m
+            self._host_ids, self._host_faces = host.mixed_faces(*((from_site < r**2) & same_side for r in fineness.host_m))
+            self._touch_ids, self._touch_faces = touching.mixed_faces(
+                *(from_dip < r**2 for r in fineness.touching_m[:-1]), (from_dip < tip_m**2) & on_finger
+            )
         else:
             self._host_ids, self._host_faces = np.arange(host.vertex_count_at[COARSE_LEVEL]), host.faces_at[COARSE_LEVEL]
             self._touch_ids, self._touch_faces = np.arange(touching.vertex_count_at[COARSE_LEVEL]), touching.faces_at[COARSE_LEVEL]
