@@ -10,11 +10,22 @@ from pydantic.functional_validators import ModelWrapValidatorHandler
 
 from egotouch_sdk.errors import ConfigError
 
+#: Where each setting is among the sections of another section: `touch_slop_mm` at `gestures.touch_slop_mm`.
+_PLACES: dict[str, list[str]] = {}
+
 
 class Section(BaseModel):
     """Frozen settings that refuse unknown keys; every mistake is a `ConfigError` naming the field."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", protected_namespaces=())
+
+    @classmethod
+    def __pydantic_init_subclass__(cls, **kwargs: Any) -> None:
+        super().__pydantic_init_subclass__(**kwargs)
+        for name, field in cls.model_fields.items():
+            if isinstance(field.annotation, type) and issubclass(field.annotation, Section):
+                for setting in field.annotation.model_fields:
+                    _PLACES.setdefault(setting, []).append(f"{name}.{setting}")
 
     @model_validator(mode="wrap")
     @classmethod
@@ -36,15 +47,9 @@ def _config_error(section: type[BaseModel], error: ValidationError) -> ConfigErr
 
 def _nearest(section: type[BaseModel], unknown: str) -> str:
     """What was meant: a setting of another section with just this name, else the section's own nearest name, else any nearest."""
-    from egotouch_sdk.config import TouchConfig  # which is made of sections
-
-    places: dict[str, list[str]] = {}
-    for owner, names in TouchConfig.names().items():
-        for name in names if owner else ():
-            places.setdefault(name, []).append(f"{owner}.{name}")
-    for known in ([unknown] if unknown in places else [], section.model_fields, places):
+    for known in ([unknown] if unknown in _PLACES else [], section.model_fields, _PLACES):
         if close := get_close_matches(unknown, known, n=1):
-            return f"Did you mean {' or '.join(places[close[0]]) if known is not section.model_fields else close[0]}?"
+            return f"Did you mean {' or '.join(_PLACES[close[0]]) if known is not section.model_fields else close[0]}?"
     return f"There are: {', '.join(section.model_fields)}"
 
 

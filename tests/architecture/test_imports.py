@@ -16,7 +16,8 @@ PACKAGE = Path(__file__).parents[2] / "egotouch_sdk"
 RANKS: tuple[frozenset[str], ...] = (
     frozenset({"errors", "joints", "surface", "clock"}),
     frozenset({"jobs"}),
-    frozenset({"frame", "observation", "touch_event", "config_layers", "config_presets"}),
+    frozenset({"frame", "observation", "touch_event", "config_layers", "config_presets", "config_section"}),
+    frozenset({"config_sections"}),
     frozenset({"frame_observation", "config", "hand_geometry", "model_input", "model_store", "inference", "events", "study_data"}),
     frozenset({"frame_result"}),
     frozenset({"wire", "listeners"}),
