@@ -1,6 +1,6 @@
 """Two consumers of one camera in asyncio: one counts clicks, the other follows the finger.
 
-python examples/async_events.py [SOURCE]     SOURCE: camera index (default 0), video file, URL, folder of images or recording
+python examples/async_events.py [SOURCE]     SOURCE: camera index (default 0), URL, video, folder of images, recording or script
 """
 
 import asyncio

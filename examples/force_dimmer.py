@@ -1,6 +1,6 @@
 """Dim a lamp with one finger: the harder you press, the brighter it is; a firm press switches the colour.
 
-python examples/force_dimmer.py [SOURCE]     SOURCE: camera index (default 0), video file, URL, folder of images or recording
+python examples/force_dimmer.py [SOURCE]     SOURCE: camera index (default 0), URL, video, folder of images, recording or script
 """
 
 import sys

@@ -1,6 +1,6 @@
 """Print what fingers do on skin.
 
-python examples/print_touches.py [SOURCE]     SOURCE: camera index (default 0), video file, URL, folder of images or recording
+python examples/print_touches.py [SOURCE]     SOURCE: camera index (default 0), URL, video, folder of images, recording or script
 """
 
 import sys

@@ -11,14 +11,15 @@ from egotouch_sdk import EgoTouch, PushSource, TouchEvent, open_source
 
 
 def camera_thread(camera: PushSource, video: str) -> None:
-    with open_source(video) as frames:
+    with camera, open_source(video) as frames:  # whatever happens, the camera is closed, which ends the run
         for frame in frames:
             time.sleep(1 / (frames.fps or 30))
             camera.push(frame.image, frame.timestamp_ns)  # BGR, uint8, (height, width, 3), stamped at capture
             pushed.append(frame.index)
-    camera.close()
 
 
+if len(sys.argv) != 2:
+    sys.exit(__doc__)
 pushed: list[int] = []
 camera = PushSource()  # keeps the newest frame only: touches never lag behind
 with EgoTouch(camera) as et:
