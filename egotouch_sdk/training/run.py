@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import json
+from collections.abc import Collection
 from dataclasses import dataclass
 from datetime import timedelta
 from pathlib import Path
@@ -59,15 +60,24 @@ class Split:
         return split
 
 
-def train(data: Path, out: Path, recipe: Recipe, machine: Machine, *, resume: bool = False, start_from: Path | None = None) -> Path:
+def train(
+    data: Path,
+    out: Path,
+    recipe: Recipe,
+    machine: Machine,
+    *,
+    resume: bool = False,
+    start_from: Path | None = None,
+    left_out: Collection[int] = (),
+) -> Path:
     """Train on the shards in `data`, export to `out` and return the model file's path.
 
     The last checkpoint is kept in `out` after every epoch and on Ctrl-C; `resume` continues from it. `start_from` is a checkpoint of
-    an earlier run whose weights are the start. Raises `SourceError` for unusable data, `ConfigError` for a missing checkpoint.
+    an earlier run whose weights are the start. The participants `left_out` neither train nor choose the threshold. Raises `SourceError` for unusable data, `ConfigError` for a missing checkpoint.
     """
     torch.set_num_threads(machine.threads)
     lightning.seed_everything(recipe.seed, verbose=False)
-    patches = read_folder(data)
+    patches = [patch for patch in read_folder(data) if patch.label.participant not in left_out]
     split = Split.of(patches, recipe)
     module = TouchModule(recipe, float(np.mean([patch.label.touch for patch in split.train])))
     if start_from is not None:
