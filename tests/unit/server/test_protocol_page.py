@@ -7,7 +7,11 @@ from pathlib import Path
 
 from egotouch_sdk.listeners.merging import MAX_COALESCED
 from egotouch_sdk.server.close_code import CloseCode
+from egotouch_sdk.server.headset_source import HeadsetSource
+from egotouch_sdk.server.headset_target import HeadsetTarget
 from egotouch_sdk.server.limits import Limits
+from egotouch_sdk.server.metrics import DROPS, Metrics
+from egotouch_sdk.server.publication import Publication
 
 PAGE = (Path(__file__).parents[3] / "proto" / "PROTOCOL.md").read_text(encoding="utf-8")
 
@@ -24,3 +28,12 @@ def test_its_numbers_are_the_servers() -> None:
     assert f"waited longer than {limits.input_ttl_ns // 10**6} ms" in PAGE
     assert f"({limits.journal_edges} edges, {limits.journal_ns // 10**9} s)" in PAGE
     assert f"at most {MAX_COALESCED} of them" in PAGE
+
+
+def test_every_metric_is_in_the_table() -> None:
+    metrics = Metrics()
+    metrics.more += [HeadsetTarget(HeadsetSource()).lines, Publication("lab").lines]
+    served = set(re.findall(r"^# TYPE (\w+) ", metrics.text(), re.MULTILINE))
+    told = set(re.findall(r"`(egotouch_\w+)(?:\{\w+\})?`", PAGE.partition("## Watching a server")[2]))
+    assert told == served
+    assert all(f"`{name}`:" in PAGE for name in DROPS)
