@@ -52,12 +52,12 @@ def test_touches_appear_on_their_side_and_in_the_log(browser: Browser, server: S
 def test_the_view_follows_to_the_other_arm_unless_told_not_to(browser: Browser, server: ServerProcess, page: PlayedPage) -> None:
     from tests.support.browser import open_page
 
-    page.page.locator("[data-host=RIGHT]").click()
+    page.page.locator("[data-host=right]").click()
     with open_page(browser, server.url) as live:
         page.page.bring_to_front()
         page.hover(0, 40)
         live.page.locator("#host-name", has_text="Right arm").wait_for()
-        live.page.locator("[data-host=LEFT]").click()
+        live.page.locator("[data-host=left]").click()
         page.press()
         live.page.locator("#log .group-touch", has_text="down").wait_for()
         assert live.page.locator("#host-name").inner_text() == "Left arm"

@@ -184,7 +184,7 @@ class PlayedPage:
     @property
     def contacts(self) -> int:
         """Contacts that are down on this page."""
-        return int(self.page.evaluate("egotouch.connection.pointers.contacts"))
+        return int(self.page.evaluate("egotouch.client.contacts"))
 
     @property
     def log(self) -> list[str]:

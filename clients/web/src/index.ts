@@ -5,6 +5,7 @@ export { EgoTouchError, type ErrorCode } from "./errors.js";
 export * from "./events.js";
 export type { EventFilter } from "./listeners/filters.js";
 export type { Subscription } from "./listeners/registry.js";
+export type { HandsView, Status, Warning, Welcome } from "./gen/egotouch/v1/egotouch_pb.js";
 export type { ErrorEvent, TouchListener, TrackingState } from "./listeners/touch_listener.js";
 export { sameOrigin, type Clock, type SocketConstructor } from "./platform.js";
 export type { ClientBody } from "./wire/messages.js";

@@ -32,9 +32,13 @@ export function readMessages(name: string): (Uint8Array | null)[] {
 
 /** Follows one stream of messages as an app's client does; time stands still but for the silence at the end. */
 export class Replay {
-  readonly log: string[] = [];
+  readonly events: TouchEvent[] = [];
   readonly errors: unknown[] = [];
   readonly session = new Session({ name: "vectors", version: "", subscribe: {}, debug: true, inputTtlMs: Infinity, random: () => 0 });
+
+  get log(): string[] {
+    return this.events.map(logLine);
+  }
 
   constructor() {
     this.#note(this.session.start(0));
@@ -61,7 +65,7 @@ export class Replay {
 
   #note(effects: readonly Effect[]): void {
     for (const effect of effects) {
-      if (effect.kind === "batch") this.log.push(...effect.batch.events.map(logLine));
+      if (effect.kind === "batch") this.events.push(...effect.batch.events);
       if (effect.kind === "error" || effect.kind === "violation") this.errors.push(effect);
     }
   }

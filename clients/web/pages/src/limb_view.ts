@@ -1,103 +1,109 @@
 // One side of a host limb on a canvas: the drawn skin, and above it whatever marks are painted each frame.
 
+import type { Handedness, Surface } from "../../src/index.js";
 import { BACK_LINES_MM, BOUNDS_MM, NAILS_MM, OUTLINE_MM, PALM_LINES_MM, smoothPath } from "./hand_outline.js";
 
 const SKIN = { top: "#33475c", bottom: "#17212c", edge: "#7f98b3", line: "#587089", nail: "#48617a" };
 const SCALE_BAR_MM = 20;
 
+export type Side = "palm" | "back";
+/** Draws the marks above the skin, in CSS pixels. */
+export type Paint = (view: LimbView, context: CanvasRenderingContext2D) => void;
+
 export class LimbView {
-  #canvas;
-  #skin = null;
+  side: Side;
+  readonly #canvas: HTMLCanvasElement;
+  readonly #paint: Paint;
+  #skin: HTMLCanvasElement | null = null;
   #outline = new Path2D();
   #scale = 1; // CSS pixels per millimetre
   #ratio = 1;
   #width = 0; // of the canvas, in CSS pixels
   #height = 0;
-  #host = "LEFT";
+  #host: Handedness = "left";
 
-  /** `side` is "palm" or "back"; `paint(view, context)` draws the marks above the skin, in CSS pixels. */
-  constructor(canvas, side, paint) {
+  constructor(canvas: HTMLCanvasElement, side: Side, paint: Paint) {
     this.#canvas = canvas;
     this.side = side;
-    this.paint = paint;
+    this.#paint = paint;
     new ResizeObserver(() => this.#resize()).observe(canvas);
     this.#resize();
   }
 
   /** The host's side: seen from the palm, a left hand has its thumb on the left. */
-  get host() {
+  get host(): Handedness {
     return this.#host;
   }
 
-  set host(host) {
+  set host(host: Handedness) {
     if (host === this.#host) return;
     this.#host = host;
     this.refresh();
   }
 
-  get canvas() {
+  get canvas(): HTMLCanvasElement {
     return this.#canvas;
   }
 
   /** CSS pixels per millimetre. */
-  get scale() {
+  get scale(): number {
     return this.#scale;
   }
 
   /** 1 when the thumb side is on the right of the picture, -1 when it is on the left. */
-  get thumbwards() {
-    return (this.#host === "LEFT") === (this.side === "palm") ? -1 : 1;
+  get thumbwards(): 1 | -1 {
+    return (this.#host === "left") === (this.side === "palm") ? -1 : 1;
   }
 
   /** Host-frame millimetres to CSS pixels of the canvas. */
-  toScreen(x_mm, y_mm) {
+  toScreen(xMm: number, yMm: number): [number, number] {
     const { left, right, top } = BOUNDS_MM;
-    return [this.#width / 2 + this.thumbwards * (x_mm - (left + right) / 2) * this.#scale, (top - y_mm) * this.#scale + this.#marginTop];
+    return [this.#width / 2 + this.thumbwards * (xMm - (left + right) / 2) * this.#scale, (top - yMm) * this.#scale + this.#marginTop];
   }
 
   /** CSS pixels of the canvas to host-frame millimetres. */
-  toMm(x, y) {
+  toMm(x: number, y: number): [number, number] {
     const { left, right, top } = BOUNDS_MM;
-    const x_mm = (x - this.#width / 2) / (this.thumbwards * this.#scale) + (left + right) / 2;
-    return [x_mm, top - (y - this.#marginTop) / this.#scale];
+    const xMm = (x - this.#width / 2) / (this.thumbwards * this.#scale) + (left + right) / 2;
+    return [xMm, top - (y - this.#marginTop) / this.#scale];
   }
 
   /** The surface at a height along the limb. */
-  surfaceAt(y_mm) {
-    if (this.side === "palm") return y_mm < 0 ? "INNER_FOREARM" : "PALM";
-    return y_mm < 0 ? "OUTER_FOREARM" : "BACK_OF_HAND";
+  surfaceAt(yMm: number): Surface {
+    if (this.side === "palm") return yMm < 0 ? "inner_forearm" : "palm";
+    return yMm < 0 ? "outer_forearm" : "back_of_hand";
   }
 
   /** True where a point of the canvas (CSS pixels) is on the limb. */
-  isOnSkin(x, y) {
-    const context = this.#canvas.getContext("2d");
+  isOnSkin(x: number, y: number): boolean {
+    const context = this.#canvas.getContext("2d")!;
     context.setTransform(1, 0, 0, 1, 0, 0);
     return context.isPointInPath(this.#outline, x, y);
   }
 
   /** Draw the skin anew, as after another side was chosen. */
-  refresh() {
+  refresh(): void {
     this.#skin = null;
     this.draw();
   }
 
-  draw() {
+  draw(): void {
     const { width, height } = this.#canvas;
     if (!width || !height) return;
-    const context = this.#canvas.getContext("2d");
+    const context = this.#canvas.getContext("2d")!;
     this.#skin ??= this.#drawSkin();
     context.setTransform(1, 0, 0, 1, 0, 0);
     context.clearRect(0, 0, width, height);
     context.drawImage(this.#skin, 0, 0);
     context.scale(this.#ratio, this.#ratio);
-    this.paint(this, context);
+    this.#paint(this, context);
   }
 
-  get #marginTop() {
+  get #marginTop(): number {
     return (this.#height - (BOUNDS_MM.top - BOUNDS_MM.bottom) * this.#scale) / 2;
   }
 
-  #resize() {
+  #resize(): void {
     this.#width = this.#canvas.clientWidth;
     this.#height = this.#canvas.clientHeight;
     this.#ratio = Math.min(devicePixelRatio || 1, 2);
@@ -108,13 +114,13 @@ export class LimbView {
     this.refresh();
   }
 
-  #drawSkin() {
+  #drawSkin(): HTMLCanvasElement {
     const picture = document.createElement("canvas");
     picture.width = this.#canvas.width;
     picture.height = this.#canvas.height;
-    const context = picture.getContext("2d");
+    const context = picture.getContext("2d")!;
     context.scale(this.#ratio, this.#ratio);
-    const place = (x, y) => this.toScreen(x, y);
+    const place = (x: number, y: number) => this.toScreen(x, y);
     const outline = (this.#outline = smoothPath(OUTLINE_MM, place, true));
     this.#fillSkin(context, outline);
     context.save();
@@ -133,7 +139,7 @@ export class LimbView {
     return picture;
   }
 
-  #fillSkin(context, outline) {
+  #fillSkin(context: CanvasRenderingContext2D, outline: Path2D): void {
     const [, top] = this.toScreen(0, BOUNDS_MM.top);
     const [, bottom] = this.toScreen(0, BOUNDS_MM.bottom);
     const fill = context.createLinearGradient(0, top, 0, bottom);
@@ -153,7 +159,7 @@ export class LimbView {
     context.stroke(outline);
   }
 
-  #fadeElbow(context) {
+  #fadeElbow(context: CanvasRenderingContext2D): void {
     const [, from] = this.toScreen(0, BOUNDS_MM.bottom + 70);
     const [, to] = this.toScreen(0, BOUNDS_MM.bottom + 2);
     const fade = context.createLinearGradient(0, from, 0, to);
@@ -166,7 +172,7 @@ export class LimbView {
   }
 
   /** The wrist's origin with the directions of +x and +y, and a bar for scale. */
-  #drawAxes(context) {
+  #drawAxes(context: CanvasRenderingContext2D): void {
     const [x, y] = this.toScreen(0, 0);
     const [xEnd] = this.toScreen(12, 0);
     const [, yEnd] = this.toScreen(0, 12);

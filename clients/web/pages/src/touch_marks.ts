@@ -1,44 +1,62 @@
 // Touches as marks on the drawn limb: hover rings, discs that grow with force, trails, and short flashes for what ends or clicks.
 
-import { FINGER_COLOURS, hostOf, onPalmSide } from "./vocabulary.js";
+import type { EventType, Finger, TouchEvent } from "../../src/index.js";
+import type { LimbView } from "./limb_view.js";
+import { FINGER_COLOURS, onPalmSide } from "./vocabulary.js";
 
 const TRAIL_MS = 900;
 const FLASH_MS = 450;
 const FORCE_MAX_N = 3.5;
-const FLASHES = { UP: "ring", CANCEL: "cross", CLICK: "burst", DOUBLE_CLICK: "burst", LONG_CLICK: "burst", FLING: "burst" };
+type FlashKind = "ring" | "cross" | "burst";
+const FLASHES: Readonly<Partial<Record<EventType, FlashKind>>> = { up: "ring", cancel: "cross", click: "burst", double_click: "burst", long_click: "burst", fling: "burst" };
+
+interface Sample {
+  readonly event: TouchEvent;
+  readonly at: number;
+}
+
+interface Flash extends Sample {
+  readonly kind: FlashKind;
+}
+
+interface Mark {
+  event: TouchEvent;
+  touching: boolean;
+  trail: Sample[];
+}
 
 export class TouchMarks {
-  #pointers = new Map(); // pointer_id -> {event, touching, trail: [{event, at}]}
-  #flashes = []; // {event, kind, at}
+  readonly #pointers = new Map<number, Mark>();
+  readonly #flashes: Flash[] = [];
 
   /** True while something moves or fades, so that the views must be drawn again. */
-  get busy() {
+  get busy(): boolean {
     return this.#pointers.size > 0 || this.#flashes.length > 0;
   }
 
   /** Take one event at `now` (milliseconds of this page's clock). */
-  apply(event, now) {
+  apply(event: TouchEvent, now: number): void {
     const kind = FLASHES[event.type];
     this.#expire(now); // here and not only where it is drawn: a hidden page draws nothing, yet must not grow
     if (kind) this.#flashes.push({ event, kind, at: now });
-    if (event.type === "HOVER_EXIT") {
-      this.#pointers.delete(event.pointer_id);
+    if (event.type === "hover_exit") {
+      this.#pointers.delete(event.pointerId);
       return;
     }
-    const pointer = this.#pointers.get(event.pointer_id) ?? { trail: [] };
-    if (event.type === "DOWN") pointer.trail = [];
-    if (event.type === "DOWN" || event.type === "MOVE") {
+    const pointer = this.#pointers.get(event.pointerId) ?? { event, touching: false, trail: [] };
+    if (event.type === "down") pointer.trail = [];
+    if (event.type === "down" || event.type === "move") {
       for (const sample of [...event.coalesced, event]) pointer.trail.push({ event: sample, at: now });
       pointer.touching = true;
     }
-    if (event.type === "UP" || event.type === "CANCEL" || event.type.startsWith("HOVER")) pointer.touching = false;
+    if (event.type === "up" || event.type === "cancel" || event.type.startsWith("hover")) pointer.touching = false;
     pointer.event = event;
-    this.#pointers.set(event.pointer_id, pointer);
+    this.#pointers.set(event.pointerId, pointer);
   }
 
   /** Draw what belongs on this side of this host's limb. */
-  paint(view, context, now) {
-    const here = (event) => hostOf(event) === view.host && onPalmSide(event.surface) === (view.side === "palm");
+  paint(view: LimbView, context: CanvasRenderingContext2D, now: number): void {
+    const here = (event: TouchEvent) => event.hostHand === view.host && onPalmSide(event.surface) === (view.side === "palm");
     this.#expire(now);
     for (const pointer of this.#pointers.values()) {
       if (!here(pointer.event)) continue;
@@ -50,20 +68,30 @@ export class TouchMarks {
     for (const flash of this.#flashes) if (here(flash.event)) paintFlash(view, context, flash, (now - flash.at) / FLASH_MS);
   }
 
-  #expire(now) {
-    const dropOld = (list, ageMs) => {
-      while (list.length && now - list[0].at > ageMs) list.shift();
+  #expire(now: number): void {
+    const dropOld = (list: Sample[], ageMs: number) => {
+      while (list[0] && now - list[0].at > ageMs) list.shift();
     };
     dropOld(this.#flashes, FLASH_MS);
     for (const { trail } of this.#pointers.values()) dropOld(trail, TRAIL_MS);
   }
 }
 
+/** How a finger lies: a touch event or a played finger. */
+export interface FingerPose {
+  readonly xMm: number;
+  readonly yMm: number;
+  readonly yawRad: number;
+  readonly pitchRad: number;
+  readonly finger: Finger;
+}
+
 /** The touching finger as a shaft from its tip backwards, shortened by its pitch; also drawn by the simulator's page. */
-export function paintFinger(view, context, { x_mm, y_mm, yaw_rad, pitch_rad, finger }, alpha) {
-  const lengthMm = 14 + 52 * Math.cos(pitch_rad);
-  const end = [x_mm - Math.sin(yaw_rad) * lengthMm, y_mm - Math.cos(yaw_rad) * lengthMm];
-  const [tipX, tipY] = view.toScreen(x_mm, y_mm);
+export function paintFinger(view: LimbView, context: CanvasRenderingContext2D, at: FingerPose, alpha: number): void {
+  const { xMm, yMm, yawRad, pitchRad, finger } = at;
+  const lengthMm = 14 + 52 * Math.cos(pitchRad);
+  const end: [number, number] = [xMm - Math.sin(yawRad) * lengthMm, yMm - Math.cos(yawRad) * lengthMm];
+  const [tipX, tipY] = view.toScreen(xMm, yMm);
   const [endX, endY] = view.toScreen(...end);
   const fade = context.createLinearGradient(tipX, tipY, endX, endY);
   fade.addColorStop(0, withAlpha(FINGER_COLOURS[finger], alpha));
@@ -78,11 +106,11 @@ export function paintFinger(view, context, { x_mm, y_mm, yaw_rad, pitch_rad, fin
 }
 
 /** Radius of the disc of a touch, in millimetres. */
-export const discRadiusMm = (force_n) => 4.5 + 6.5 * Math.min(force_n / FORCE_MAX_N, 1);
+export const discRadiusMm = (forceN: number): number => 4.5 + 6.5 * Math.min(forceN / FORCE_MAX_N, 1);
 
-function paintDisc(view, context, event) {
-  const [x, y] = view.toScreen(event.x_mm, event.y_mm);
-  const radius = discRadiusMm(event.force_n) * view.scale;
+function paintDisc(view: LimbView, context: CanvasRenderingContext2D, event: TouchEvent): void {
+  const [x, y] = view.toScreen(event.xMm, event.yMm);
+  const radius = discRadiusMm(event.forceN) * view.scale;
   const colour = FINGER_COLOURS[event.finger];
   const glow = context.createRadialGradient(x, y, radius * 0.6, x, y, radius * 2);
   glow.addColorStop(0, withAlpha(colour, 0.5));
@@ -96,11 +124,11 @@ function paintDisc(view, context, event) {
   context.lineWidth = 2;
   context.strokeStyle = "#ffffff";
   context.stroke();
-  label(view, context, x, y - radius, `${event.force_n.toFixed(1)} N`);
+  label(view, context, x, y - radius, `${event.forceN.toFixed(1)} N`);
 }
 
-function paintHover(view, context, event) {
-  const [x, y] = view.toScreen(event.x_mm, event.y_mm);
+function paintHover(view: LimbView, context: CanvasRenderingContext2D, event: TouchEvent): void {
+  const [x, y] = view.toScreen(event.xMm, event.yMm);
   circle(context, x, y, Math.max(7, 6.5 * view.scale));
   context.lineWidth = 2;
   context.setLineDash([5, 4]);
@@ -109,21 +137,22 @@ function paintHover(view, context, event) {
   context.setLineDash([]);
 }
 
-function paintTrail(view, context, trail, now) {
+function paintTrail(view: LimbView, context: CanvasRenderingContext2D, trail: readonly Sample[], now: number): void {
   context.lineCap = "butt"; // round ends would overlap and show as beads
   for (let i = 1; i < trail.length; i += 1) {
-    const fresh = 1 - (now - trail[i].at) / TRAIL_MS;
+    const [{ event: before }, { event, at }] = [trail[i - 1]!, trail[i]!];
+    const fresh = 1 - (now - at) / TRAIL_MS;
     context.beginPath();
-    context.moveTo(...view.toScreen(trail[i - 1].event.x_mm, trail[i - 1].event.y_mm));
-    context.lineTo(...view.toScreen(trail[i].event.x_mm, trail[i].event.y_mm));
-    context.lineWidth = (1.5 + discRadiusMm(trail[i].event.force_n) * 0.7 * fresh) * view.scale;
-    context.strokeStyle = withAlpha(FINGER_COLOURS[trail[i].event.finger], 0.75 * fresh);
+    context.moveTo(...view.toScreen(before.xMm, before.yMm));
+    context.lineTo(...view.toScreen(event.xMm, event.yMm));
+    context.lineWidth = (1.5 + discRadiusMm(event.forceN) * 0.7 * fresh) * view.scale;
+    context.strokeStyle = withAlpha(FINGER_COLOURS[event.finger], 0.75 * fresh);
     context.stroke();
   }
 }
 
-function paintFlash(view, context, { event, kind }, age) {
-  const [x, y] = view.toScreen(event.x_mm, event.y_mm);
+function paintFlash(view: LimbView, context: CanvasRenderingContext2D, { event, kind }: Flash, age: number): void {
+  const [x, y] = view.toScreen(event.xMm, event.yMm);
   context.lineWidth = kind === "burst" ? 4 * (1 - age) + 1 : 2;
   context.strokeStyle = kind === "cross" ? withAlpha("#ff6b6b", 1 - age) : withAlpha(FINGER_COLOURS[event.finger], 1 - age);
   if (kind === "cross") {
@@ -141,7 +170,7 @@ function paintFlash(view, context, { event, kind }, age) {
   context.stroke();
 }
 
-function label(view, context, x, y, text) {
+function label(view: LimbView, context: CanvasRenderingContext2D, x: number, y: number, text: string): void {
   context.font = `600 ${Math.max(12, 5.5 * view.scale)}px system-ui, sans-serif`;
   context.textAlign = "center";
   context.textBaseline = "bottom";
@@ -153,11 +182,11 @@ function label(view, context, x, y, text) {
   context.fillText(text, x, y - 6);
 }
 
-function circle(context, x, y, radius) {
+function circle(context: CanvasRenderingContext2D, x: number, y: number, radius: number): void {
   context.beginPath();
   context.arc(x, y, radius, 0, 2 * Math.PI);
 }
 
-function withAlpha(hex, alpha) {
+function withAlpha(hex: string, alpha: number): string {
   return `${hex}${Math.round(255 * Math.min(Math.max(alpha, 0), 1)).toString(16).padStart(2, "0")}`;
 }

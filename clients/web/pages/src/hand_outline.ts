@@ -6,28 +6,40 @@ export const FOREARM_MM = 249;
 export const BOUNDS_MM = { left: -66, right: 98, top: 190, bottom: -FOREARM_MM };
 
 // Base (MCP), direction in degrees from +y towards +x, length to the end of the finger, half widths at base and tip.
-const FINGERS = [
+type Point = readonly [number, number];
+/** Turns millimetres into pixels. */
+type Place = (x: number, y: number) => Point;
+
+interface Finger {
+  readonly base: Point;
+  readonly deg: number;
+  readonly length: number;
+  readonly halfBase: number;
+  readonly halfTip: number;
+}
+
+const FINGERS: readonly Finger[] = [
   { base: [-36, 66], deg: -13, length: 69, halfBase: 9.2, halfTip: 7 },
   { base: [-18, 77], deg: -5, length: 87, halfBase: 9.8, halfTip: 7.8 },
   { base: [1, 82], deg: 1, length: 92, halfBase: 10, halfTip: 8.2 },
   { base: [21, 79], deg: 7, length: 85, halfBase: 10, halfTip: 8 },
 ];
-const THUMB = { base: [45, 42], deg: 38, length: 56, halfBase: 12.5, halfTip: 9.2 };
+const THUMB: Finger = { base: [45, 42], deg: 38, length: 56, halfBase: 12.5, halfTip: 9.2 };
 // Where the creases of a finger lie, in parts of its length (the palm's side), and how deep its web is.
 const JOINTS = [0.25, 0.52, 0.76];
 const WEB = 0.2;
 
-const ULNAR_MM = [[-38.5, -FOREARM_MM - 25], [-38, -FOREARM_MM], [-37, -190], [-34, -120], [-30, -60], [-28, -20], [-30, 2], [-38, 22], [-43, 42], [-45.5, 58]];
-const RADIAL_MM = [[36, 10], [29, -14], [30, -60], [36, -120], [41, -190], [43, -FOREARM_MM], [43.5, -FOREARM_MM - 25]];
+const ULNAR_MM: readonly Point[] = [[-38.5, -FOREARM_MM - 25], [-38, -FOREARM_MM], [-37, -190], [-34, -120], [-30, -60], [-28, -20], [-30, 2], [-38, 22], [-43, 42], [-45.5, 58]];
+const RADIAL_MM: readonly Point[] = [[36, 10], [29, -14], [30, -60], [36, -120], [41, -190], [43, -FOREARM_MM], [43.5, -FOREARM_MM - 25]];
 
-function along({ base, deg, length }, share, sideways) {
+function along({ base, deg, length }: Finger, share: number, sideways: number): Point {
   const [sin, cos] = [Math.sin((deg * Math.PI) / 180), Math.cos((deg * Math.PI) / 180)];
   return [base[0] + sin * length * share + cos * sideways, base[1] + cos * length * share - sin * sideways];
 }
 
-function aroundFinger(finger, from) {
-  const half = (share) => finger.halfBase + (finger.halfTip - finger.halfBase) * share;
-  const side = (share, sign) => along(finger, share, sign * half(share));
+function aroundFinger(finger: Finger, from: number): Point[] {
+  const half = (share: number) => finger.halfBase + (finger.halfTip - finger.halfBase) * share;
+  const side = (share: number, sign: number) => along(finger, share, sign * half(share));
   const tip = [-75, -45, -15, 15, 45, 75].map((deg) => {
     const turn = (deg * Math.PI) / 180;
     return along(finger, 1 - (finger.halfTip * (1 - Math.cos(turn))) / finger.length, finger.halfTip * Math.sin(turn));
@@ -36,15 +48,15 @@ function aroundFinger(finger, from) {
   return [...up, ...tip, ...[0.75, 0.5, from].map((share) => side(share, 1))];
 }
 
-function web(left, right) {
-  const [a, b] = [along(left, WEB, left.halfBase), along(right, WEB, -right.halfBase)];
+function web(left: Finger, right: Finger): Point {
+  const [a, b]: [Point, Point] = [along(left, WEB, left.halfBase), along(right, WEB, -right.halfBase)];
   return [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2 - 1];
 }
 
 /** The closed outline as points in millimetres, from the elbow's ulnar side around the fingers and back. */
-export const OUTLINE_MM = [
+export const OUTLINE_MM: readonly Point[] = [
   ...ULNAR_MM,
-  ...FINGERS.flatMap((finger, i) => [...aroundFinger(finger, i === 0 ? 0.2 : 0.3), ...(i < 3 ? [web(finger, FINGERS[i + 1])] : [])]),
+  ...FINGERS.flatMap((finger, i) => [...aroundFinger(finger, i === 0 ? 0.2 : 0.3), ...(i < 3 ? [web(finger, FINGERS[i + 1]!)] : [])]),
   [34, 72], [37, 62],
   ...aroundFinger(THUMB, 0.3),
   [57, 34], [48, 22],
@@ -52,7 +64,7 @@ export const OUTLINE_MM = [
 ];
 
 /** Lines on the skin of the palm's side: finger creases and the three lines of the palm. */
-export const PALM_LINES_MM = [
+export const PALM_LINES_MM: readonly (readonly Point[])[] = [
   ...FINGERS.flatMap((finger) => JOINTS.map((share, i) => crease(finger, share, i === 0 ? 0.72 : 0.66))),
   crease(THUMB, 0.38, 0.6),
   [[-42, 56], [-24, 58], [-6, 64], [6, 76]],
@@ -62,7 +74,7 @@ export const PALM_LINES_MM = [
 ];
 
 /** Lines on the back: knuckles, wrinkles over the joints. */
-export const BACK_LINES_MM = [
+export const BACK_LINES_MM: readonly (readonly Point[])[] = [
   ...FINGERS.flatMap((finger) => [0.49, 0.52, 0.55, 0.755].map((share) => crease(finger, share, 0.5))),
   ...FINGERS.map((finger) => arc(finger.base, 7)),
   crease(THUMB, 0.4, 0.5),
@@ -70,7 +82,7 @@ export const BACK_LINES_MM = [
 ];
 
 /** Fingernails as closed outlines on the back. */
-export const NAILS_MM = [...FINGERS, THUMB].map((finger) => {
+export const NAILS_MM: readonly (readonly Point[])[] = [...FINGERS, THUMB].map((finger) => {
   const half = finger.halfTip * 0.62;
   const end = 1 - 2.5 / finger.length;
   const start = end - 12 / finger.length;
@@ -82,23 +94,25 @@ export const NAILS_MM = [...FINGERS, THUMB].map((finger) => {
   ];
 });
 
-function crease(finger, share, width) {
+function crease(finger: Finger, share: number, width: number): Point[] {
   const half = (finger.halfBase + (finger.halfTip - finger.halfBase) * share) * width;
   return [along(finger, share, -half), along(finger, share - 0.012, 0), along(finger, share, half)];
 }
 
-function arc([x, y], radius) {
-  return [-60, -20, 20, 60].map((deg) => [x + radius * Math.sin((deg * Math.PI) / 180), y - 4 + radius * Math.cos((deg * Math.PI) / 180)]);
+function arc([x, y]: Point, radius: number): Point[] {
+  return [-60, -20, 20, 60].map((deg): Point => [x + radius * Math.sin((deg * Math.PI) / 180), y - 4 + radius * Math.cos((deg * Math.PI) / 180)]);
 }
 
 /** A smooth path through points (Catmull-Rom), drawn with `place`, which turns millimetres into pixels. */
-export function smoothPath(points, place, closed) {
+export function smoothPath(points: readonly Point[], place: Place, closed: boolean): Path2D {
   const path = new Path2D();
-  const at = (i) => place(...points[closed ? (i + points.length) % points.length : Math.min(Math.max(i, 0), points.length - 1)]);
+  const at = (i: number) => place(...points[closed ? (i + points.length) % points.length : Math.min(Math.max(i, 0), points.length - 1)]!);
   path.moveTo(...at(0));
   for (let i = 0; i < points.length - (closed ? 0 : 1); i += 1) {
-    const [p0, p1, p2, p3] = [at(i - 1), at(i), at(i + 1), at(i + 2)];
-    const control = (a, b, c, sign) => b.map((value, axis) => value + (sign * (c[axis] - a[axis])) / 6);
+    const [p0, p1, p2, p3]: [Point, Point, Point, Point] = [at(i - 1), at(i), at(i + 1), at(i + 2)];
+    const control = (a: Point, b: Point, c: Point, sign: number): Point => [
+      b[0] + (sign * (c[0] - a[0])) / 6, b[1] + (sign * (c[1] - a[1])) / 6,
+    ];
     path.bezierCurveTo(...control(p0, p1, p2, 1), ...control(p1, p2, p3, -1), ...p2);
   }
   if (closed) path.closePath();

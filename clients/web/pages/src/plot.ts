@@ -1,15 +1,29 @@
 // A value over the last seconds, one line per series, on a canvas.
 
+/** `windowMs` is the span shown, `top` the least upper end of the axis, `unit` its unit; `dots` draws points instead of lines. */
+export interface PlotOptions {
+  readonly top: number;
+  readonly unit: string;
+  readonly windowMs?: number;
+  readonly dots?: boolean;
+}
+
+interface Series {
+  readonly colour: string;
+  readonly points: { readonly at: number; readonly value: number | null }[];
+}
+
+type Key = string | number;
+
 export class Plot {
-  #canvas;
-  #options;
-  #series = new Map(); // key -> {colour, points: [{at, value}]}
-  #level = null;
+  readonly #canvas: HTMLCanvasElement;
+  readonly #options: Required<PlotOptions>;
+  readonly #series = new Map<Key, Series>();
+  #level: { readonly value: number; readonly name: string } | null = null;
   #width = 0; // of the canvas, in CSS pixels
   #height = 0;
 
-  /** `windowMs` is the span shown, `top` the least upper end of the axis, `unit` its unit; `dots` draws points instead of lines. */
-  constructor(canvas, options) {
+  constructor(canvas: HTMLCanvasElement, options: PlotOptions) {
     this.#canvas = canvas;
     this.#options = { windowMs: 8000, dots: false, ...options };
     new ResizeObserver(() => this.#resize()).observe(canvas);
@@ -17,42 +31,42 @@ export class Plot {
   }
 
   /** A dashed line at a value, with its name; null removes it. */
-  set level(level) {
+  set level(level: { readonly value: number; readonly name: string } | null) {
     this.#level = level;
   }
 
   /** Add a value; null breaks the line. */
-  add(key, colour, at, value) {
-    const series = this.#series.get(key) ?? { colour, points: [] };
+  add(key: Key, colour: string, at: number, value: number | null): void {
+    const series: Series = this.#series.get(key) ?? { colour, points: [] };
     series.points.push({ at, value });
     this.#series.set(key, series);
     this.#expire(series, at);
   }
 
   /** Forget all values. */
-  clear() {
+  clear(): void {
     this.#series.clear();
   }
 
   /** A part of one series' values, for example 0.95 for the 95th percentile; null without values. */
-  percentile(key, share) {
-    const values = (this.#series.get(key)?.points ?? []).map((point) => point.value).sort((a, b) => a - b);
-    return values.length ? values[Math.min(values.length - 1, Math.floor(share * values.length))] : null;
+  percentile(key: Key, share: number): number | null {
+    const values = (this.#series.get(key)?.points ?? []).flatMap(({ value }) => (value === null ? [] : [value])).sort((a, b) => a - b);
+    return values[Math.min(values.length - 1, Math.floor(share * values.length))] ?? null;
   }
 
-  draw(now) {
+  draw(now: number): void {
     const { windowMs, top, unit } = this.#options;
     for (const [key, series] of this.#series) {
       this.#expire(series, now);
       if (!series.points.length) this.#series.delete(key);
     }
-    const context = this.#canvas.getContext("2d");
-    const [width, height, left, bottom] = [this.#width, this.#height, 38, 18];
+    const context = this.#canvas.getContext("2d")!;
+    const [width, height, left, bottom] = [this.#width, this.#height, 38, 18] as const;
     const highest = [...this.#series.values()].flatMap(({ points }) => points).reduce((most, { value }) => Math.max(most, value ?? 0), top);
-    const x = (at) => width - ((now - at) / windowMs) * (width - left);
-    const y = (value) => 6 + (1 - value / highest) * (height - bottom - 6);
+    const x = (at: number) => width - ((now - at) / windowMs) * (width - left);
+    const y = (value: number) => 6 + (1 - value / highest) * (height - bottom - 6);
     context.clearRect(0, 0, width, height);
-    this.#axes(context, { width, height, left, bottom, highest, y, unit, windowMs });
+    this.#axes(context, { width, height, left, highest, y, unit, windowMs });
     context.save();
     context.beginPath();
     context.rect(left, 0, width - left, height - bottom + 2);
@@ -61,11 +75,11 @@ export class Plot {
     context.restore();
   }
 
-  #expire({ points }, now) {
-    while (points.length && now - points[0].at > this.#options.windowMs) points.shift();
+  #expire({ points }: Series, now: number): void {
+    while (points[0] && now - points[0].at > this.#options.windowMs) points.shift();
   }
 
-  #line(context, { colour, points }, x, y) {
+  #line(context: CanvasRenderingContext2D, { colour, points }: Series, x: (at: number) => number, y: (value: number) => number): void {
     context.strokeStyle = context.fillStyle = colour;
     context.lineWidth = 2;
     context.lineJoin = "round";
@@ -81,7 +95,7 @@ export class Plot {
     context.stroke();
   }
 
-  #axes(context, { width, height, left, bottom, highest, y, unit, windowMs }) {
+  #axes(context: CanvasRenderingContext2D, { width, height, left, highest, y, unit, windowMs }: Axes): void {
     context.font = "12px system-ui, sans-serif";
     context.textBaseline = "middle";
     context.textAlign = "right";
@@ -115,18 +129,28 @@ export class Plot {
     context.fillText(this.#level.name, left + 4, y(this.#level.value) - 4);
   }
 
-  #resize() {
+  #resize(): void {
     const ratio = Math.min(devicePixelRatio || 1, 2);
     this.#width = this.#canvas.clientWidth;
     this.#height = this.#canvas.clientHeight;
     this.#canvas.width = Math.round(this.#width * ratio);
     this.#canvas.height = Math.round(this.#height * ratio);
-    this.#canvas.getContext("2d").setTransform(ratio, 0, 0, ratio, 0, 0);
+    this.#canvas.getContext("2d")!.setTransform(ratio, 0, 0, ratio, 0, 0);
   }
 }
 
+interface Axes {
+  readonly width: number;
+  readonly height: number;
+  readonly left: number;
+  readonly highest: number;
+  readonly unit: string;
+  readonly windowMs: number;
+  y(value: number): number;
+}
+
 /** The smallest of 1, 2, 5 times a power of ten that is not below `value`. */
-function niceStep(value) {
+function niceStep(value: number): number {
   const power = 10 ** Math.floor(Math.log10(value));
-  return [1, 2, 5, 10].map((factor) => factor * power).find((step) => step >= value * 0.999);
+  return [1, 2, 5, 10].map((factor) => factor * power).find((step) => step >= value * 0.999) ?? value;
 }

@@ -1,40 +1,37 @@
 // The list of events, newest first, coloured and filtered by group. Moves are counted elsewhere and listed only when asked for.
 
-import { isStream } from "./connection.js";
+import { isStream, type TouchEvent } from "../../src/index.js";
 import { GROUP_OF, GROUPS, words } from "./vocabulary.js";
 
 const KEPT = 150;
 const STREAM = "stream";
 
 export class EventLog {
-  #list;
-  #hidden = new Set([STREAM]);
-  #first = null;
+  readonly #list: HTMLElement;
+  readonly #hidden = new Set([STREAM]);
+  #firstNs: bigint | null = null;
 
   /** `list` is an <ol>, `filters` the element that takes the filter buttons. */
-  constructor(list, filters) {
+  constructor(list: HTMLElement, filters: HTMLElement) {
     this.#list = list;
     for (const [key, { label, colour }] of Object.entries(GROUPS)) filters.append(this.#filterButton(key, label, colour));
     filters.append(this.#filterButton(STREAM, "Moves", "#93a4b8"));
   }
 
   /** List events in order. */
-  add(events, local) {
+  add(events: readonly TouchEvent[]): void {
     const listed = this.#hidden.has(STREAM) ? events.filter((event) => !isStream(event.type)) : events;
-    const rows = listed.map((event) => this.#row(event, local)).reverse();
-    this.#list.prepend(...rows);
-    while (this.#list.childElementCount > KEPT) this.#list.lastElementChild.remove();
+    this.#list.prepend(...listed.map((event) => this.#row(event)).reverse());
+    while (this.#list.childElementCount > KEPT) this.#list.lastElementChild?.remove();
   }
 
-  clear() {
+  clear(): void {
     this.#list.replaceChildren();
   }
 
-  #filterButton(key, label, colour) {
+  #filterButton(key: string, label: string, colour: string): HTMLElement {
     const button = document.createElement("button");
-    button.type = "button";
-    button.className = "chip";
-    button.textContent = label;
+    Object.assign(button, { type: "button", className: "chip", textContent: label });
     button.style.setProperty("--chip", colour);
     const show = () => {
       button.setAttribute("aria-pressed", String(!this.#hidden.has(key)));
@@ -48,32 +45,32 @@ export class EventLog {
     return button;
   }
 
-  #row(event, local) {
-    this.#first ??= event.timestamp_ms;
+  #row(event: TouchEvent): HTMLElement {
+    this.#firstNs ??= event.timestampNs;
     const row = document.createElement("li");
-    row.className = `group-${GROUP_OF[event.type] ?? "touch"}${isStream(event.type) ? ` group-${STREAM}` : ""}${local || event.late ? " apart" : ""}`;
+    row.className = [`group-${GROUP_OF[event.type]}`, isStream(event.type) ? `group-${STREAM}` : "", event.local || event.late ? "apart" : ""].join(" ").trim();
     row.append(
-      cell("when", `${((event.timestamp_ms - this.#first) / 1000).toFixed(2)} s`),
+      cell("when", `${(Number(event.timestampNs - this.#firstNs) / 1e9).toFixed(2)} s`),
       cell("what", words(event.type)),
       cell("who", `${words(event.hand)} ${words(event.finger)}`),
-      cell("more", remarks(event, local)),
-      cell("where", `${words(event.surface)} · x ${event.x_mm.toFixed(0)}, y ${event.y_mm.toFixed(0)} mm`),
+      cell("more", remarks(event)),
+      cell("where", `${words(event.surface)} · x ${event.xMm.toFixed(0)}, y ${event.yMm.toFixed(0)} mm`),
     );
     return row;
   }
 }
 
-function remarks(event, local) {
-  const said = [];
-  if (event.force_n > 0) said.push(`${event.force_n.toFixed(2)} N`);
-  if (event.click_count > 1) said.push(`× ${event.click_count}`);
+function remarks(event: TouchEvent): string {
+  const said: string[] = [];
+  if (event.forceN > 0) said.push(`${event.forceN.toFixed(2)} N`);
+  if (event.clickCount > 1) said.push(`× ${event.clickCount}`);
   if (event.reason) said.push(words(event.reason));
-  if (local) said.push("by this page");
+  if (event.local) said.push("by this page");
   if (event.late) said.push("late, must not act");
   return said.join(" · ");
 }
 
-function cell(kind, text) {
+function cell(kind: string, text: string): HTMLElement {
   const element = document.createElement("span");
   element.className = kind;
   element.textContent = text;

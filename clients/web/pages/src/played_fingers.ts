@@ -1,5 +1,6 @@
 // The fingers that mouse, pen, touch screen and keys play on the drawn limb, ready to be sent.
 
+import type { Finger, Surface } from "../../src/index.js";
 import { FINGERS } from "./vocabulary.js";
 
 /** A press lasts at least this long: a tap on a touch pad takes a few milliseconds, less than the time between two frames. */
@@ -12,61 +13,120 @@ const FORCE_MAX_N = 3.5;
 /** The time of a press that has not been sent yet. */
 const UNPLAYED = null;
 
-const isFresh = (pressed, now) => pressed === UNPLAYED || now - pressed < LEAST_PRESS_MS;
+/** What a pen says of itself. */
+export interface Pen {
+  readonly forceN: number;
+  readonly pitchRad?: number;
+  readonly yawRad?: number;
+}
+
+/** A DOM pointer, or the keys, on the canvas: CSS pixels. */
+export interface PlayingPointer {
+  readonly id: number | string;
+  readonly x: number;
+  readonly y: number;
+  readonly pen: Pen | null;
+}
+
+/** One finger as it is sent. */
+export interface PlayedFinger {
+  readonly id: number;
+  readonly finger: Finger;
+  readonly surface: Surface;
+  readonly xMm: number;
+  readonly yMm: number;
+  readonly hoverMm: number;
+  readonly forceN: number;
+  readonly pitchRad: number;
+  readonly yawRad: number;
+}
+
+/** What the controls say. */
+export interface PlayingSettings {
+  readonly finger: Finger;
+  readonly forceN: number;
+  readonly pitchRad: number;
+  readonly yawRad: number;
+  readonly hoverMm: number;
+  readonly hoverOnly: boolean;
+  readonly deviceForce: boolean;
+}
+
+/** What this needs of a `LimbView`. */
+export interface PlayingView {
+  toMm(x: number, y: number): readonly [number, number];
+  isOnSkin(x: number, y: number): boolean;
+  surfaceAt(yMm: number): Surface;
+}
+
+interface Held {
+  id: number;
+  finger: Finger;
+  xMm: number;
+  yMm: number;
+  down: boolean;
+  pressed: number | null;
+  pen: Pen | null;
+  shift: boolean;
+  gone: number | null;
+}
+
+const isFresh = (pressed: number | null, now: number) => pressed === UNPLAYED || now - pressed < LEAST_PRESS_MS;
 
 export class PlayedFingers {
-  #fingers = new Map(); // DOM pointer id -> {id, finger, x_mm, y_mm, down, pressed, pen, gone}
-  #settings;
-  #view;
+  /** By the id of the DOM pointer that plays the finger. */
+  readonly #fingers = new Map<number | string, Held>();
+  readonly #settings: () => PlayingSettings;
+  readonly #view: PlayingView;
 
-  /** `settings()` gives `{finger, force_n, pitch_rad, yaw_rad, hover_mm, hoverOnly, deviceForce}`. */
-  constructor(view, settings) {
+  constructor(view: PlayingView, settings: () => PlayingSettings) {
     this.#view = view;
     this.#settings = settings;
   }
 
   /** Follow a DOM pointer; `down` while it presses. Off the skin a finger lifts. */
-  move(pointer, { down, now, shift = false }) {
-    const [x_mm, y_mm] = this.#view.toMm(pointer.x, pointer.y);
+  move(pointer: PlayingPointer, { down, now, shift = false }: { down: boolean; now: number; shift?: boolean }): void {
+    const [xMm, yMm] = this.#view.toMm(pointer.x, pointer.y);
     const onSkin = this.#view.isOnSkin(pointer.x, pointer.y);
     const known = this.#fingers.get(pointer.id);
     if (!known && !onSkin) return;
-    const { id, finger } = known ?? this.#claim();
-    if (!finger) return;
+    const claimed = known ?? this.#claim();
+    if (!claimed) return;
+    const { id, finger } = claimed;
     const presses = down && onSkin;
     const pressed = presses && !known?.down ? UNPLAYED : known ? known.pressed : -Infinity;
-    const pen = presses || !isFresh(pressed, now) ? pointer.pen : known.pen; // a lifted pen has no pressure any more
-    this.#fingers.set(pointer.id, { id, finger, x_mm, y_mm, down: presses, pressed, pen, shift, gone: null });
+    const pen = presses || !isFresh(pressed, now) || !known ? pointer.pen : known.pen; // a lifted pen has no pressure any more
+    this.#fingers.set(pointer.id, { id, finger, xMm, yMm, down: presses, pressed, pen, shift, gone: null });
     if (!onSkin && !down) this.leave(pointer.id, now);
   }
 
   /** True while any finger presses. */
-  get pressing() {
+  get pressing(): boolean {
     return [...this.#fingers.values()].some((finger) => finger.down);
   }
 
   /** A DOM pointer has lifted or gone out of the picture: its finger hovers a moment, then leaves. */
-  leave(pointer_id, now) {
-    const finger = this.#fingers.get(pointer_id);
+  leave(pointerId: number | string, now: number): void {
+    const finger = this.#fingers.get(pointerId);
     if (finger && finger.gone === null) Object.assign(finger, { down: false, gone: now + LINGER_MS });
   }
 
   /** Take the hand away at once: what touches is cancelled by the server, as when a camera loses a hand. */
-  vanish() {
+  vanish(): void {
     this.#fingers.clear();
   }
 
   /** The chosen finger has changed: those that hover become it. */
-  choose() {
+  choose(): void {
     const hovering = [...this.#fingers.entries()].filter(([, finger]) => !finger.down);
     for (const [key] of hovering) this.#fingers.delete(key);
     for (const [key, finger] of hovering) this.#fingers.set(key, { ...finger, ...this.#claim() });
   }
 
-  /** What is played at `now`, as SimulatedPointer fields with short enum names. */
-  at(now) {
+  /** What is played at `now`. */
+  at(now: number): PlayedFinger[] {
     const settings = this.#settings();
-    const played = [];
+    const played: PlayedFinger[] = [];
     for (const [key, finger] of this.#fingers) {
       if (finger.gone !== null && now >= finger.gone && finger.pressed !== UNPLAYED) {
         this.#fingers.delete(key);
@@ -79,7 +139,7 @@ export class PlayedFingers {
   }
 
   /** What `at` gave has been sent. */
-  noteSent(now) {
+  noteSent(now: number): void {
     for (const finger of this.#fingers.values()) {
       if (finger.pressed !== UNPLAYED) continue;
       finger.pressed = now;
@@ -87,54 +147,55 @@ export class PlayedFingers {
     }
   }
 
-  #place({ id, finger, x_mm, y_mm, down, pressed, pen }, settings, now) {
+  #place({ id, finger, xMm, yMm, down, pressed, pen }: Held, settings: PlayingSettings, now: number): PlayedFinger {
     const touching = (down || isFresh(pressed, now)) && !settings.hoverOnly;
-    const device = settings.deviceForce && pen ? pen : {};
+    const device: Partial<Pen> = settings.deviceForce && pen ? pen : {};
     return {
       id,
       finger,
-      surface: this.#view.surfaceAt(y_mm),
-      x_mm,
-      y_mm,
-      hover_mm: touching ? 0 : settings.hover_mm,
-      force_n: touching ? Math.min(device.force_n ?? settings.force_n, FORCE_MAX_N) : 0,
-      pitch_rad: device.pitch_rad ?? settings.pitch_rad,
-      yaw_rad: device.yaw_rad ?? settings.yaw_rad,
+      surface: this.#view.surfaceAt(yMm),
+      xMm,
+      yMm,
+      hoverMm: touching ? 0 : settings.hoverMm,
+      forceN: touching ? Math.min(device.forceN ?? settings.forceN, FORCE_MAX_N) : 0,
+      pitchRad: device.pitchRad ?? settings.pitchRad,
+      yawRad: device.yawRad ?? settings.yawRad,
     };
   }
 
-  #second(first, settings, now) {
+  #second(first: Held, settings: PlayingSettings, now: number): PlayedFinger[] {
     const finger = this.#order().find((candidate) => !this.#taken(candidate));
     if (!finger) return [];
-    const beside = { ...first, id: first.id + 100, finger, x_mm: first.x_mm + BESIDE_MM };
+    const beside = { ...first, id: first.id + 100, finger, xMm: first.xMm + BESIDE_MM };
     return [this.#place(beside, settings, now)];
   }
 
-  #taken(finger) {
+  #taken(finger: Finger): boolean {
     return [...this.#fingers.values()].some((played) => played.finger === finger);
   }
 
   /** The chosen finger, its neighbours (the one farther from the thumb first), the rest. */
-  #order() {
+  #order(): Finger[] {
     const chosen = FINGERS.indexOf(this.#settings().finger);
-    const distance = (finger) => Math.abs(FINGERS.indexOf(finger) - chosen - 0.1);
+    const distance = (finger: Finger) => Math.abs(FINGERS.indexOf(finger) - chosen - 0.1);
     return [...FINGERS].sort((a, b) => distance(a) - distance(b));
   }
 
   /** The first finger in order that is free or about to leave, so that a second tap is the same finger's; and an id for it. */
-  #claim() {
+  #claim(): { id: number; finger: Finger } | null {
     for (const finger of this.#order()) {
-      const [key, holder] = [...this.#fingers].find(([, played]) => played.finger === finger) ?? [];
-      if (holder === undefined) return { id: this.#freeId(), finger };
+      const held = [...this.#fingers].find(([, played]) => played.finger === finger);
+      if (held === undefined) return { id: this.#freeId(), finger };
+      const [key, holder] = held;
       if (holder.gone !== null) {
         this.#fingers.delete(key);
         return { id: holder.id, finger };
       }
     }
-    return {};
+    return null;
   }
 
-  #freeId() {
+  #freeId(): number {
     const taken = new Set([...this.#fingers.values()].map((finger) => finger.id));
     let id = 1;
     while (taken.has(id)) id += 1;
@@ -143,12 +204,12 @@ export class PlayedFingers {
 }
 
 /** Force and angles of a pen, from a DOM PointerEvent; null for what has no pressure of its own. */
-export function penOf(event, view) {
+export function penOf(event: PointerEvent, view: { readonly thumbwards: number }): Pen | null {
   if (event.pointerType !== "pen") return null;
-  const pen = { force_n: event.pressure * FORCE_MAX_N };
+  const pen = { forceN: event.pressure * FORCE_MAX_N };
   const [altitude, azimuth] = [event.altitudeAngle, event.azimuthAngle];
   if (altitude === undefined || altitude >= Math.PI / 2 - 0.01) return pen; // upright or without tilt: the sliders hold
   // A pen leans away from where it points: azimuth is 0 along the picture's +x and grows clockwise.
   const [right, up] = [-Math.cos(azimuth), Math.sin(azimuth)];
-  return { ...pen, pitch_rad: altitude, yaw_rad: Math.atan2(right * view.thumbwards, up) };
+  return { ...pen, pitchRad: altitude, yawRad: Math.atan2(right * view.thumbwards, up) };
 }
