@@ -317,12 +317,12 @@ export class EgoTouchClient extends Listeners {
   }
 
   #tellStatus(status: Status): void {
-    this.registry.call("onStatus", status);
     const gate = GATE_REASONS.name(status.gate) ?? "no_hands";
     const key = `${gate} ${status.handsInView}`;
-    if (key === this.#gate) return;
+    const hasChanged = key !== this.#gate;
     this.#gate = key;
-    this.registry.call<TrackingState>("onTrackingChanged", { gate, handsInView: status.handsInView });
+    if (hasChanged) this.registry.call<TrackingState>("onTrackingChanged", { gate, handsInView: status.handsInView });
+    this.registry.call("onStatus", status);
   }
 
   #deliver(batch: TouchBatch): void {

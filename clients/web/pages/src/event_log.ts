@@ -1,7 +1,7 @@
 // The list of events, newest first, coloured and filtered by group. Moves are counted elsewhere and listed only when asked for.
 
 import { isStream, type TouchEvent } from "../../src/index.js";
-import { GROUP_OF, GROUPS, words } from "./vocabulary.js";
+import { GROUP_OF, GROUPS, whole, words } from "./vocabulary.js";
 
 const KEPT = 150;
 const STREAM = "stream";
@@ -54,7 +54,7 @@ export class EventLog {
       cell("what", words(event.type)),
       cell("who", `${words(event.hand)} ${words(event.finger)}`),
       cell("more", remarks(event)),
-      cell("where", `${words(event.surface)} · x ${event.xMm.toFixed(0)}, y ${event.yMm.toFixed(0)} mm`),
+      cell("where", `${words(event.surface)} · x ${whole(event.xMm)}, y ${whole(event.yMm)} mm`),
     );
     return row;
   }

@@ -4,6 +4,7 @@ import { EgoTouchClient, type Handedness, type TouchEvent } from "../../src/inde
 import { startWithAccess } from "./access.js";
 import { showCounters } from "./counters.js";
 import { EventLog } from "./event_log.js";
+import { ForceRecord } from "./force_record.js";
 import { atMostEvery, everyFrame } from "./frames.js";
 import { showHands } from "./hands_panel.js";
 import { LimbView, type Paint } from "./limb_view.js";
@@ -22,9 +23,9 @@ const paint: Paint = (view, context) => marks.paint(view, context, performance.n
 const views = [new LimbView(byId<HTMLCanvasElement>("palm"), "palm", paint), new LimbView(byId<HTMLCanvasElement>("back"), "back", paint)];
 const log = new EventLog(byId("log"), byId("filters"));
 const force = new Plot(byId<HTMLCanvasElement>("force"), { top: 2, unit: "N" });
+const forces = new ForceRecord(force);
 const latency = new Plot(byId<HTMLCanvasElement>("latency"), { top: 20, unit: "ms", dots: true });
 let follow = true;
-let forceNow = "";
 
 client.onBatch(({ events, sendMs, latencyMs, late }) => {
   const now = performance.now();
@@ -41,11 +42,8 @@ client.onWelcome(({ settings, features }) => {
 
 function show(event: TouchEvent, now: number): void {
   marks.apply(event, now);
+  forces.take(event, now);
   if (event.type === "down" || event.type === "hover_enter") showHost(event.hostHand, true);
-  const touches = event.type === "down" || event.type === "move";
-  if (!touches && event.type !== "up" && event.type !== "cancel") return;
-  force.add(event.pointerId, FINGER_COLOURS[event.finger], now, touches ? event.forceN : null);
-  forceNow = touches ? `${event.forceN.toFixed(2)} N` : "";
 }
 
 function showHost(host: Handedness, fromEvent: boolean): void {
@@ -82,7 +80,7 @@ let wasBusy = true;
 const drawPlots = atMostEvery(PLOT_EVERY_MS, (now) => {
   force.draw(now);
   latency.draw(now);
-  byId("force-now").textContent = forceNow;
+  byId("force-now").textContent = forces.text;
 });
 function draw(now: number): void {
   if (marks.busy || wasBusy) for (const view of views) view.draw();

@@ -10,9 +10,10 @@ import { LimbView } from "./limb_view.js";
 import { PlayedFingers, type PlayedFinger } from "./played_fingers.js";
 import { Plot } from "./plot.js";
 import { PointerSender } from "./sender.js";
+import { ForceRecord } from "./force_record.js";
 import { showStatus } from "./status_bar.js";
 import { paintFinger, TouchMarks } from "./touch_marks.js";
-import { byId, FINGER_COLOURS, words } from "./vocabulary.js";
+import { byId, whole, words } from "./vocabulary.js";
 
 const SIMULATOR = "simulator";
 const PLOT_EVERY_MS = 40;
@@ -23,7 +24,6 @@ const PLAY_EVERY_MS = 7;
 const client = new EgoTouchClient({ name: "simulator", version: "1", subscribe: { status: true }, inputTtlMs: Infinity });
 const marks = new TouchMarks();
 let played: readonly PlayedFinger[] = [];
-let forceNow = "";
 const view = new LimbView(byId<HTMLCanvasElement>("limb"), "palm", (limb, context) => {
   marks.paint(limb, context, performance.now());
   for (const finger of played) paintFinger(limb, context, finger, 0.18);
@@ -36,6 +36,7 @@ const controls: Controls = new Controls(view, () => {
 const sender = new PointerSender(client);
 const log = new EventLog(byId("log"), byId("filters"));
 const force = new Plot(byId<HTMLCanvasElement>("force-plot"), { top: 2, unit: "N" });
+const forces = new ForceRecord(force);
 
 client.onBatch(({ events }) => {
   const now = performance.now();
@@ -54,10 +55,7 @@ byId("clear").addEventListener("click", () => {
 
 function show(event: TouchEvent, now: number): void {
   marks.apply(event, now);
-  const touches = event.type === "down" || event.type === "move";
-  if (!touches && event.type !== "up" && event.type !== "cancel") return;
-  force.add(event.pointerId, FINGER_COLOURS[event.finger], now, touches ? event.forceN : null);
-  forceNow = touches ? `${event.forceN.toFixed(2)} N` : "";
+  forces.take(event, now);
 }
 
 function describe(pointers: readonly PlayedFinger[]): string {
@@ -65,7 +63,7 @@ function describe(pointers: readonly PlayedFinger[]): string {
   return pointers
     .map(({ finger, surface, xMm, yMm, hoverMm, forceN }) => {
       const how = hoverMm === 0 ? `${forceN.toFixed(1)} N` : `hovers at ${hoverMm} mm`;
-      return `${words(finger)}: ${words(surface)}, x ${xMm.toFixed(0)}, y ${yMm.toFixed(0)} mm, ${how}`;
+      return `${words(finger)}: ${words(surface)}, x ${whole(xMm)}, y ${whole(yMm)} mm, ${how}`;
     })
     .join(" · ");
 }
@@ -73,7 +71,7 @@ function describe(pointers: readonly PlayedFinger[]): string {
 let wasBusy = true;
 const drawPlot = atMostEvery(PLOT_EVERY_MS, (now) => {
   force.draw(now);
-  byId("force-now").textContent = forceNow;
+  byId("force-now").textContent = forces.text;
 });
 function play(): void {
   const now = performance.now();

@@ -56,16 +56,18 @@ export class TouchMarks {
 
   /** Draw what belongs on this side of this host's limb. */
   paint(view: LimbView, context: CanvasRenderingContext2D, now: number): void {
+    const labels: Label[] = [];
     const here = (event: TouchEvent) => event.hostHand === view.host && onPalmSide(event.surface) === (view.side === "palm");
     this.#expire(now);
     for (const pointer of this.#pointers.values()) {
       if (!here(pointer.event)) continue;
       paintTrail(view, context, pointer.trail.filter(({ event }) => here(event)), now);
       paintFinger(view, context, pointer.event, pointer.touching ? 0.34 : 0.16);
-      if (pointer.touching) paintDisc(view, context, pointer.event);
+      if (pointer.touching) labels.push(paintDisc(view, context, pointer.event));
       else paintHover(view, context, pointer.event);
     }
     for (const flash of this.#flashes) if (here(flash.event)) paintFlash(view, context, flash, (now - flash.at) / FLASH_MS);
+    paintLabels(view, context, labels);
   }
 
   #expire(now: number): void {
@@ -108,7 +110,7 @@ export function paintFinger(view: LimbView, context: CanvasRenderingContext2D, a
 /** Radius of the disc of a touch, in millimetres. */
 export const discRadiusMm = (forceN: number): number => 4.5 + 6.5 * Math.min(forceN / FORCE_MAX_N, 1);
 
-function paintDisc(view: LimbView, context: CanvasRenderingContext2D, event: TouchEvent): void {
+function paintDisc(view: LimbView, context: CanvasRenderingContext2D, event: TouchEvent): Label {
   const [x, y] = view.toScreen(event.xMm, event.yMm);
   const radius = discRadiusMm(event.forceN) * view.scale;
   const colour = FINGER_COLOURS[event.finger];
@@ -124,7 +126,7 @@ function paintDisc(view: LimbView, context: CanvasRenderingContext2D, event: Tou
   context.lineWidth = 2;
   context.strokeStyle = "#ffffff";
   context.stroke();
-  label(view, context, x, y - radius, `${event.forceN.toFixed(1)} N`);
+  return { x, y, radius, text: `${event.forceN.toFixed(1)} N` };
 }
 
 function paintHover(view: LimbView, context: CanvasRenderingContext2D, event: TouchEvent): void {
@@ -170,16 +172,37 @@ function paintFlash(view: LimbView, context: CanvasRenderingContext2D, { event, 
   context.stroke();
 }
 
-function label(view: LimbView, context: CanvasRenderingContext2D, x: number, y: number, text: string): void {
-  context.font = `600 ${Math.max(12, 5.5 * view.scale)}px system-ui, sans-serif`;
+/** What is written at a disc. */
+interface Label {
+  readonly x: number;
+  readonly y: number;
+  readonly radius: number;
+  readonly text: string;
+}
+
+/** Space between a disc and its label, in CSS pixels. */
+const GAP = 6;
+
+/** Labels stand above their discs; where two would overlap, the later one stands below. */
+function paintLabels(view: LimbView, context: CanvasRenderingContext2D, labels: readonly Label[]): void {
+  const height = Math.max(12, 5.5 * view.scale);
+  context.font = `600 ${height}px system-ui, sans-serif`;
   context.textAlign = "center";
-  context.textBaseline = "bottom";
+  context.textBaseline = "middle";
   context.lineWidth = 4;
   context.strokeStyle = "rgb(8 12 18 / 0.8)";
   context.lineJoin = "round";
-  context.strokeText(text, x, y - 6);
   context.fillStyle = "#ffffff";
-  context.fillText(text, x, y - 6);
+  const written: { readonly x: number; readonly y: number; readonly width: number }[] = [];
+  for (const { x, y, radius, text } of labels) {
+    const { width } = context.measureText(text);
+    const away = radius + GAP + height / 2;
+    const isTaken = (at: number) => written.some((other) => Math.abs(other.x - x) < (other.width + width) / 2 + GAP && Math.abs(other.y - at) < height);
+    const at = isTaken(y - away) ? y + away : y - away;
+    written.push({ x, y: at, width });
+    context.strokeText(text, x, at);
+    context.fillText(text, x, at);
+  }
 }
 
 function circle(context: CanvasRenderingContext2D, x: number, y: number, radius: number): void {

@@ -33,6 +33,9 @@ export const GROUP_OF: Readonly<Partial<Record<EventType, string>>> = Object.fro
 /** "inner_forearm" as "inner forearm". */
 export const words = (name: string): string => name.replaceAll("_", " ");
 
+/** Whole millimetres, without a minus before zero. */
+export const whole = (mm: number): string => String(Math.round(mm) + 0);
+
 /** True for the surfaces that are seen together with the palm. */
 export const onPalmSide = (surface: Surface): boolean => surface === "palm" || surface === "inner_forearm";
 
