@@ -7,16 +7,17 @@ import json
 import sys
 from pathlib import Path
 
-from egotouch_sdk.cli import evaluate_real, evaluate_study
+from egotouch_sdk.cli import evaluate_dataset, evaluate_real, evaluate_study
 from egotouch_sdk.cli.options import Subparsers, add_command
 from egotouch_sdk.cli.output import print_json
 from egotouch_sdk.errors import ConfigError
 
 EXAMPLES = """\
-  egotouch evaluate study data/study --report study.html      a simulated study by the paper's protocol
-  egotouch evaluate real thumb_patches                 AUROC, accuracy and force on labelled real pictures
-  egotouch evaluate false-touches clips/*.mp4          false touches per minute where nothing is touched
-  egotouch evaluate host-frame                         place and angles of the demo clip's touches against the truth
+  egotouch evaluate study data/study --report study.html   a simulated study by the paper's protocol
+  egotouch evaluate dataset palmpad /data/Palmpad          labelled recordings through the whole pipeline
+  egotouch evaluate real thumb_patches                     AUROC, accuracy and force on labelled real pictures
+  egotouch evaluate false-touches clips/*.mp4              false touches per minute where nothing is touched
+  egotouch evaluate host-frame                             place and angles of the demo clip's touches against the truth
 """
 HOST_FRAME_EXAMPLES = """\
   egotouch evaluate host-frame                               the demo clip's touches
@@ -31,6 +32,7 @@ def add_parser(subparsers: Subparsers) -> None:
     kinds = parser.add_subparsers(title="what to measure", metavar="KIND", required=True)
     evaluate_study.add_parser(kinds)
     evaluate_real.add_parsers(kinds)
+    evaluate_dataset.add_parser(kinds)
     host = add_command(kinds, "host-frame", "compare place and angles with the generator's truth", HOST_FRAME_EXAMPLES)
     host.add_argument("--stills", type=Path, metavar="DIR", help="rendered stills in DIR through the hand tracker, not the demo clip")
     host.add_argument("--render", type=int, metavar="N", help="with --stills: first render until N are there, 2 s each")

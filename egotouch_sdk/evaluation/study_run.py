@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,16 +10,19 @@ import numpy.typing as npt
 
 from egotouch_sdk.config import StateConfig
 from egotouch_sdk.filters import MedianFilter
+from egotouch_sdk.joints import Handedness
 from egotouch_sdk.observation import FingertipPatch, HostPoint, TouchEstimate
 from egotouch_sdk.patches import PATCH_PX_PER_MM
 from egotouch_sdk.state import FingertipSample, PointerState, Thresholds, TouchStateMachine
 from egotouch_sdk.study_data import StudyRound
+from egotouch_sdk.surface import Surface
 from egotouch_sdk.touch import TouchModel
 
 #: Patches shown to the model at once (our choice; more is no faster on two cores).
 BATCH = 64
 _HAND_ID = 1
 _TIP_PX = (0.0, 0.0)
+_PLACE = HostPoint(Surface.PALM, 0.0, 0.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -40,7 +44,8 @@ class Answers:
 def answer(study_round: StudyRound, model: TouchModel, config: StateConfig | None = None) -> Answers:
     """Everything the product would have told about a round; thresholds are the model's own unless `config` sets others."""
     own = Thresholds(model.manifest.down_probability, model.manifest.up_probability)
-    return follow(study_round, estimate_frames(study_round, model), own, config or StateConfig())
+    times_ns = study_round.timestamp_ns.tolist()
+    return follow(times_ns, estimate_frames(study_round, model), own, config or StateConfig())
 
 
 def estimate_frames(study_round: StudyRound, model: TouchModel) -> dict[int, TouchEstimate]:
@@ -64,37 +69,38 @@ def estimate_frames(study_round: StudyRound, model: TouchModel) -> dict[int, Tou
     return dict(zip(shown, estimates, strict=True))
 
 
-def follow(study_round: StudyRound, estimates: dict[int, TouchEstimate], thresholds: Thresholds, config: StateConfig) -> Answers:
-    """Run estimates by frame number through the median and the state machine; frames without one count as not seen."""
+def follow(times_ns: Sequence[int], estimates: Mapping[int, TouchEstimate], thresholds: Thresholds, config: StateConfig) -> Answers:
+    """Run one finger's estimates, by number of the frame in `times_ns` (T,), through the median and the state machine.
+
+    Frames without an estimate count as not seen. The finger stays at its place: these are touches of which only the pictures are known.
+    """
     thresholds = thresholds.overridden_by(config)
     median, machine = MedianFilter(config.coast_frames), TouchStateMachine(config, thresholds)
     stall_ns, last_ns = config.stall_ms * 1e6, None
-    frames = len(study_round.timestamp_ns)
-    told = np.full((4, frames), np.nan)
-    live = np.zeros(frames, bool)
-    for frame, timestamp_ns in enumerate(study_round.timestamp_ns.tolist()):
+    told = np.full((4, len(times_ns)), np.nan)
+    live = np.zeros(len(times_ns), bool)
+    for frame, timestamp_ns in enumerate(times_ns):
         if last_ns is not None and timestamp_ns - last_ns > stall_ns:
             median.reset()
         last_ns = timestamp_ns
         raw = [estimates[frame]] if frame in estimates else []
         filtered = median.apply(raw)
-        machine.step([_sample(study_round, estimate) for estimate in filtered], timestamp_ns)
+        machine.step([_sample(estimate) for estimate in filtered], timestamp_ns)
         for own, smooth in zip(raw, filtered, strict=True):
             told[:, frame] = own.touch_probability, own.force_n, smooth.touch_probability, smooth.force_n
         live[frame] = any(state is PointerState.TOUCH for state, _ in machine.pointers.values())
     return Answers(told[0], told[1], told[2], told[3], live)
 
 
-def _sample(study_round: StudyRound, estimate: TouchEstimate) -> FingertipSample:
-    meta = study_round.meta
+def _sample(estimate: TouchEstimate) -> FingertipSample:
     return FingertipSample(
         hand_id=estimate.hand_id,
-        handedness=meta.touching_hand,
+        handedness=Handedness.RIGHT,
         finger=estimate.finger,
         touch_probability=estimate.touch_probability,
         force_n=estimate.force_n,
         tip_px=_TIP_PX,
         px_per_mm=PATCH_PX_PER_MM,
         image_xy=(0.5, 0.5),
-        point=HostPoint(meta.place, 0.0, 0.0, 0.0, 0.0),
+        point=_PLACE,
     )

@@ -91,9 +91,6 @@ def write_study(folder: Path, rounds: Sequence[StudyRound]) -> Path:
 
 def signal_model(folder: Path, name: str = "signal", down: float = 0.6, up: float = 0.4, gain: float = 1.0) -> Path:
     """Write a real ONNX touch model with its manifest: logit = `gain` x first, force = second number of `polar`."""
-    patch = helper.make_tensor_value_info("patch", TensorProto.FLOAT, ["N", 3, 100, 100])
-    polar = helper.make_tensor_value_info("polar", TensorProto.FLOAT, ["N", 2])
-    outputs = [helper.make_tensor_value_info(each, TensorProto.FLOAT, ["N"]) for each in ("touch_logit", "force_n")]
     constants = {"gain": np.float32(gain), "zero": np.float32(0), "axes": np.array([1, 2, 3]), "at0": np.array(0), "at1": np.array(1)}
     nodes = [
         helper.make_node("ReduceMean", ["patch", "axes"], ["mean"], keepdims=0),
@@ -103,8 +100,35 @@ def signal_model(folder: Path, name: str = "signal", down: float = 0.6, up: floa
         helper.make_node("Add", ["scaled", "nothing"], ["touch_logit"]),
         helper.make_node("Gather", ["polar", "at1"], ["force_n"], axis=1),
     ]
+    return _write_model(folder, name, down, up, nodes, constants)
+
+
+def colour_model(folder: Path, name: str = "colour", force_n: float = 1.5) -> Path:
+    """Write a real ONNX touch model that takes red skin for touched and blue for not; the force is always `force_n`."""
+    constants = {
+        "axes": np.array([2, 3]),
+        "weights": np.array([[4.0], [0.0], [-4.0]], np.float32),
+        "axis": np.array([1]),
+        "zeros": np.array([[0.0], [0.0]], np.float32),
+        "force": np.float32(force_n),
+    }
+    nodes = [
+        helper.make_node("ReduceMean", ["patch", "axes"], ["colour"], keepdims=0),
+        helper.make_node("MatMul", ["colour", "weights"], ["column"]),
+        helper.make_node("Squeeze", ["column", "axis"], ["touch_logit"]),
+        helper.make_node("MatMul", ["polar", "zeros"], ["nothing"]),
+        helper.make_node("Squeeze", ["nothing", "axis"], ["flat"]),
+        helper.make_node("Add", ["flat", "force"], ["force_n"]),
+    ]
+    return _write_model(folder, name, 0.6, 0.4, nodes, constants)
+
+
+def _write_model(folder: Path, name: str, down: float, up: float, nodes: Sequence[onnx.NodeProto], constants: dict[str, Any]) -> Path:
+    patch = helper.make_tensor_value_info("patch", TensorProto.FLOAT, ["N", 3, 100, 100])
+    polar = helper.make_tensor_value_info("polar", TensorProto.FLOAT, ["N", 2])
+    outputs = [helper.make_tensor_value_info(each, TensorProto.FLOAT, ["N"]) for each in ("touch_logit", "force_n")]
     values = [onnx.numpy_helper.from_array(np.asarray(value), each) for each, value in constants.items()]
-    graph = helper.make_graph(nodes, "signal", [patch, polar], outputs, values)
+    graph = helper.make_graph(nodes, name, [patch, polar], outputs, values)
     network = helper.make_model(graph, opset_imports=[helper.make_opsetid("", 18)], ir_version=9)
     file = folder / f"{name}.onnx"
     onnx.save(network, file)

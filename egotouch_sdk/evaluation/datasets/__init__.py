@@ -1,0 +1,1 @@
+"""Readers of labelled recordings: public data sets, and a plain folder layout of our own."""
