@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from egotouch_sdk.capture_time import CaptureTime
 from egotouch_sdk.config import TouchConfig
-from egotouch_sdk.errors import FrameError, GrammarError
+from egotouch_sdk.errors import GrammarError
 from egotouch_sdk.events import GrammarVerifier
 from egotouch_sdk.events.order import RAW
 from egotouch_sdk.filters import HostPointFilter, MedianFilter
@@ -76,15 +77,15 @@ class EventEngine:
         self._verifier = (
             GrammarVerifier(self.config.state.max_speed_mm_s, self.config.state.jump_slack_mm) if self.config.debug else None
         )
-        self._stall_ns = round(self.config.state.stall_ms * 1e6)
-        self._time_ns: int | None = None
+        self._time = CaptureTime(self.config.state.stall_ms)
 
     def process(self, observation: FrameObservation) -> FrameResult:
         """Take one frame's observation; call it for every frame, also when nothing was seen.
 
         Raises `FrameError` when its time is not after that of the frame before; nothing changes then.
         """
-        self._advance_time(observation.timestamp_ns)
+        if not self._time.advance(observation.timestamp_ns):
+            self._forget()
         filtered = self._filter.apply(observation.estimates)
         points = tuple(self._locate(observation, tip) for tip in observation.fingertips)
         size_px = observation.width_px, observation.height_px
@@ -103,7 +104,7 @@ class EventEngine:
         """
         events = self._recognize(self._machine.finish(timestamp_ns, reason))
         self._forget()
-        self._time_ns = None
+        self._time.reset()
         return events
 
     @property
@@ -121,16 +122,6 @@ class EventEngine:
             return locate_exact(pair, tip.finger, host, mirrored=mirrored)
         point = locate(pair, tip.finger, host, mirrored=mirrored)
         return point and self._points.apply(tip.hand_id, tip.finger, point, observation.timestamp_ns)
-
-    def _advance_time(self, timestamp_ns: int) -> None:
-        if self._time_ns is not None:
-            if timestamp_ns <= self._time_ns:
-                raise FrameError(
-                    f"frame time {timestamp_ns} ns is not after {self._time_ns} ns", hint="Call finish() before another source"
-                )
-            if timestamp_ns - self._time_ns > self._stall_ns:
-                self._forget()
-        self._time_ns = timestamp_ns
 
     def _recognize(self, raw: tuple[TouchEvent, ...]) -> tuple[TouchEvent, ...]:
         events = self._gestures.feed(raw)

@@ -6,9 +6,9 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from egotouch_sdk import clock
+from egotouch_sdk.capture_time import CaptureTime
 from egotouch_sdk.config import TouchConfig
 from egotouch_sdk.engine import EventEngine
-from egotouch_sdk.errors import FrameError
 from egotouch_sdk.frame import Frame
 from egotouch_sdk.frame_observation import CLOSED, FrameObservation
 from egotouch_sdk.frame_result import STAGES, FrameResult
@@ -48,9 +48,8 @@ class TouchPipeline:
         manifest = self.touch.manifest
         self.engine = EventEngine(config, Thresholds(manifest.down_probability, manifest.up_probability))
         self._host_memory = HostMemory(round(config.gate.host_memory_ms * 1e6))
-        self._stall_ns = round(config.state.stall_ms * 1e6)
+        self._time = CaptureTime(config.state.stall_ms)
         self._gate = CLOSED
-        self._time_ns: int | None = None
         self._now_ns = now_ns
 
     def process(self, frame: Frame) -> FrameResult:
@@ -58,7 +57,8 @@ class TouchPipeline:
 
         Raises `FrameError` when the frame's time is not after that of the frame before.
         """
-        self._advance_time(frame.timestamp_ns)
+        if not self._time.advance(frame.timestamp_ns):
+            self._forget()
         laps = _Laps(self._now_ns)
         hands = self.hands.track(frame)
         laps.end("hands")
@@ -83,7 +83,7 @@ class TouchPipeline:
         events = self.engine.finish(timestamp_ns, reason)
         self._forget()
         self.hands.reset()
-        self._time_ns = None
+        self._time.reset()
         return events
 
     def _find_pairs(self, hands: tuple[HandObservation, ...], timestamp_ns: int) -> GateResult:
@@ -95,16 +95,6 @@ class TouchPipeline:
     def _extract(self, frame: Frame, gate: GateResult) -> tuple[FingertipPatch, ...]:
         mirrored = self.config.hands.mirrored
         return tuple(patch for pair in gate.pairs for patch in extract(frame, pair, self.config.patches, mirrored=mirrored))
-
-    def _advance_time(self, timestamp_ns: int) -> None:
-        if self._time_ns is not None:
-            if timestamp_ns <= self._time_ns:
-                raise FrameError(
-                    f"frame time {timestamp_ns} ns is not after {self._time_ns} ns", hint="Call finish() before another source"
-                )
-            if timestamp_ns - self._time_ns > self._stall_ns:
-                self._forget()
-        self._time_ns = timestamp_ns
 
     def _forget(self) -> None:
         self._host_memory.reset()

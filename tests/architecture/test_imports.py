@@ -19,7 +19,7 @@ RANKS: tuple[frozenset[str], ...] = (
     frozenset({"frame", "observation", "touch_event", "config_layers", "config_presets", "config_section"}),
     frozenset({"config_sections"}),
     frozenset({"frame_observation", "config", "hand_geometry", "model_input", "model_store", "inference", "events", "study_data"}),
-    frozenset({"frame_result"}),
+    frozenset({"frame_result", "capture_time"}),
     frozenset({"wire", "listeners"}),
     frozenset({"hands", "gate", "patches", "touch", "filters", "host_frame", "state", "gestures", "skin"}),
     frozenset({"recording", "simulator"}),
