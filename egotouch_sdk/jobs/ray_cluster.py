@@ -31,11 +31,12 @@ _END_S = 20.0
 class RayCluster:
     """A `Runner` on the cluster at `address`: "local", "auto", "HOST:PORT" of the head or "ray://HOST:10001" from outside.
 
-    Each order holds `cpus` processor cores; `local_cpus` is the size of the local Ray. Raises `MissingExtraError` without Ray and
+    Each order holds `cpus` processor cores and `gpus` GPUs, of which it sees no others (0.5: two share one). `local_cpus` is the size of
+    the local Ray. Raises `MissingExtraError` without Ray and
     `ConfigError` when no cluster answers.
     """
 
-    def __init__(self, address: str, cpus: int = 1, local_cpus: int | None = None) -> None:
+    def __init__(self, address: str, cpus: int = 1, gpus: float = 0.0, local_cpus: int | None = None) -> None:
         for name, value in (_environment() | (_local_environment() if address == LOCAL else {})).items():
             os.environ.setdefault(name, value)
         try:
@@ -43,7 +44,7 @@ class RayCluster:
         except ImportError as missing:
             raise MissingExtraError("Running on a Ray cluster", "cluster") from missing
         self._ray = ray
-        self._cpus = cpus
+        self._needs = {"CPU": float(cpus), "GPU": gpus}
         self._running: dict[Any, str] = {}
         self._folder = ""
         self.where = "a local Ray" if address == LOCAL else f"the Ray cluster at {address}"
@@ -57,7 +58,7 @@ class RayCluster:
             self.close()
             reason = str(problem).strip().splitlines()[0]
             raise ConfigError(f"no Ray cluster answers at {address} ({reason})", hint="Start one: ray start --head") from problem
-        self._attempt = ray.remote(num_cpus=cpus, max_retries=0)(attempt)
+        self._attempt = ray.remote(num_cpus=cpus, num_gpus=gpus, max_retries=0)(attempt)
 
     def _local_options(self, cpus: int) -> dict[str, Any]:
         self._folder = tempfile.mkdtemp(prefix="ray-", dir=_SHORT_PATH if os.path.isdir(_SHORT_PATH) else None)  # noqa: PTH112
@@ -72,7 +73,8 @@ class RayCluster:
     @property
     def slots(self) -> int:
         """Orders that the machines of the cluster can hold now."""
-        return max(1, int(self._ray.cluster_resources().get("CPU", 0)) // self._cpus)
+        there = self._ray.cluster_resources()
+        return max(1, min(int(there.get(what, 0.0) / need) for what, need in self._needs.items() if need))
 
     def start(self, name: str, order: bytes) -> None:
         """Hand an attempt to the cluster."""

@@ -4,15 +4,27 @@ from __future__ import annotations
 
 import argparse
 import sys
+from contextlib import closing
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from egotouch_sdk.cli.options import Subparsers, add_command, positive_float, positive_int
-from egotouch_sdk.errors import MissingExtraError
+from egotouch_sdk.cli.options import Subparsers, add_command, add_ray_option, positive_float, positive_int
+from egotouch_sdk.errors import ConfigError, MissingExtraError
+
+if TYPE_CHECKING:
+    from egotouch_sdk.training.recipe import Recipe
+    from egotouch_sdk.training.run import Machine
 
 EXAMPLES = """\
   egotouch train --data data/patches --out out/touch
   egotouch train --data data/patches --out out/touch --resume      after an interruption
   egotouch train --data data/patches --out out/paper --recipe paper
+  egotouch train --data data/study --out out/folds --folds 5            leave participants out, 5 models
+  egotouch train --data data/study --out out/folds --folds 15 --ray auto --gpus 1       on a Ray cluster
+  egotouch train --data data/patches --out out/trials --trials trials.toml --jobs 2     compare recipes
+
+--folds and --trials run again go on where they stopped. Each run's folder gets a train.log; of those at work: out/.*.part/train.log.
+A file of trials holds [recipe] for all and one [trials.NAME] each, with fields of the recipe such as epochs = 8.
 """
 
 
@@ -34,6 +46,11 @@ def add_parser(subparsers: Subparsers) -> None:
     begin = parser.add_mutually_exclusive_group()
     begin.add_argument("--resume", action="store_true", help="continue the run whose checkpoint is in --out")
     begin.add_argument("--start-from", type=Path, metavar="CKPT", help="start from the weights of another run's checkpoint")
+    begin.add_argument("--folds", type=positive_int, metavar="K", help="K runs that leave out groups of participants; writes folds.json")
+    begin.add_argument("--trials", type=Path, metavar="FILE.toml", help="one run for each recipe in the file, and a table of scores")
+    parser.add_argument("--jobs", type=positive_int, default=1, metavar="N", help="folds or trials at a time on this machine (default 1)")
+    add_ray_option(parser)
+    parser.add_argument("--gpus", type=positive_float, default=0.0, metavar="X", help="with --ray: GPUs for each run, 0.5 = two share one")
     parser.set_defaults(handler=train)
 
 
@@ -51,6 +68,32 @@ def train(options: argparse.Namespace) -> int:
     chosen = {"epochs": options.epochs, "learning_rate": options.learning_rate, "picture_px": options.picture_px, "seed": options.seed}
     recipe = replace(recipe, **{name: value for name, value in chosen.items() if value is not None})
     machine = Machine(options.threads, options.workers, options.max_minutes)
+    if options.folds or options.trials:
+        return _train_many(options, recipe, machine)
+    if options.ray or options.jobs > 1:
+        raise ConfigError("--ray and --jobs are for --folds and --trials", hint="A single run uses one machine")
     path = run(options.data, options.out, recipe, machine, resume=options.resume, start_from=options.start_from)
     sys.stdout.write(f"model written to {path}\n")
     return 0
+
+
+def _train_many(options: argparse.Namespace, recipe: Recipe, machine: Machine) -> int:
+    """Folds or trials as jobs, then their scores as a table on stdout."""
+    from egotouch_sdk.jobs.choice import open_runner
+    from egotouch_sdk.training.folds import fold_scores, train_folds
+    from egotouch_sdk.training.table import score_table
+    from egotouch_sdk.training.trials import read_trials, train_trials, trial_scores
+
+    trials = read_trials(options.trials, recipe) if options.trials else {}
+    with closing(open_runner(options.jobs, options.ray, options.threads, options.gpus)) as runner:
+        if trials:
+            result = train_trials(options.data, options.out, trials, machine, runner, _report)
+        else:
+            result = train_folds(options.data, options.out, options.folds, recipe, machine, runner, _report)
+    scores = trial_scores(options.out, trials) if trials else fold_scores(options.out)
+    sys.stdout.write(score_table(scores, mean=not trials))
+    return result.exit_code
+
+
+def _report(line: str) -> None:
+    print(line, file=sys.stderr, flush=True)

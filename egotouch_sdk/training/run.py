@@ -73,7 +73,8 @@ def train(
     """Train on the shards in `data`, export to `out` and return the model file's path.
 
     The last checkpoint is kept in `out` after every epoch and on Ctrl-C; `resume` continues from it. `start_from` is a checkpoint of
-    an earlier run whose weights are the start. The participants `left_out` neither train nor choose the threshold. Raises `SourceError` for unusable data, `ConfigError` for a missing checkpoint.
+    an earlier run whose weights are the start. The participants `left_out` neither train nor choose the threshold.
+    Raises `SourceError` for unusable data, `ConfigError` for a missing checkpoint.
     """
     torch.set_num_threads(machine.threads)
     lightning.seed_everything(recipe.seed, verbose=False)
