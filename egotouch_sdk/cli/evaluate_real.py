@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from egotouch_sdk.cli.evaluate_study import add_report_options, check_report
-from egotouch_sdk.cli.options import Subparsers, add_command, add_pipeline_options, config_from, positive_float
+from egotouch_sdk.cli.options import Subparsers, add_command, add_pipeline_options, config_from, point_px, positive_float
 from egotouch_sdk.cli.output import print_json
 
 if TYPE_CHECKING:
@@ -38,7 +38,7 @@ def add_parsers(kinds: Subparsers) -> None:
     real = add_command(kinds, "real", "score labelled real finger-up pictures", REAL_EXAMPLES)
     real.add_argument("folder", type=Path, metavar="DIR", help="folder with labels.csv and the pictures")
     real.add_argument("--model", type=Path, metavar="FILE", help="touch model .onnx with its .json (default: the shipped one)")
-    real.add_argument("--tip", type=_point, default=THUMB_TIP_PX, metavar="X,Y", help="TIP landmark in pixels (default 316,175)")
+    real.add_argument("--tip", type=point_px, default=THUMB_TIP_PX, metavar="X,Y", help="TIP landmark in pixels (default 316,175)")
     real.add_argument("--px-per-mm", type=positive_float, default=THUMB_PX_PER_MM, metavar="S", help="scale of the pictures (default 7.3)")
     real.add_argument("--min-confidence", type=positive_float, default=MIN_CONFIDENCE, metavar="C", help="default 0.7")
     add_report_options(real)
@@ -156,12 +156,3 @@ def _print_table(table: Table) -> None:
     widths = [max(len(row[column]) for row in rows) for column in range(len(table.head))]
     for name, *cells in rows:
         print("  ".join([name.ljust(widths[0]), *(cell.rjust(width) for cell, width in zip(cells, widths[1:], strict=True))]))
-
-
-def _point(text: str) -> tuple[float, float]:
-    """`316,175` as (316.0, 175.0), for argparse."""
-    try:
-        x, y = (float(part) for part in text.split(","))
-    except ValueError as error:
-        raise argparse.ArgumentTypeError(f"{text!r} is not of the form X,Y") from error
-    return x, y

@@ -127,6 +127,15 @@ def size_px(text: str) -> tuple[int, int]:
     return positive_int(width), positive_int(height)
 
 
+def point_px(text: str) -> tuple[float, float]:
+    """`316,175` as (316.0, 175.0), for argparse."""
+    try:
+        x, y = (float(part) for part in text.split(","))
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(f"{text!r} is not of the form X,Y") from error
+    return x, y
+
+
 def open_from(options: argparse.Namespace) -> FrameSource | ObservationSource:
     """The source that the command line names."""
     from egotouch_sdk.sources import open_source

@@ -8,7 +8,11 @@ from contextlib import closing
 from pathlib import Path
 from typing import Any
 
-from egotouch_sdk.cli.options import add_runner_options, positive_float, positive_int, runner_from
+from egotouch_sdk.cli.evaluate_real import MIN_CONFIDENCE, THUMB_PX_PER_MM, THUMB_TIP_PX
+from egotouch_sdk.cli.options import add_runner_options, point_px, positive_float, positive_int, runner_from
+from egotouch_sdk.errors import SourceError
+from egotouch_sdk.joints import Finger
+from egotouch_sdk.surface import Surface
 
 _EXAMPLES = """examples:
   egotouch synth patches --out data/patches --series 1000   # 8,000 labelled patches; stop and restart as you like
@@ -17,6 +21,7 @@ _EXAMPLES = """examples:
   egotouch synth sheet data/patches sheet.png               # look at some of them
   egotouch synth study --out data/study                     # 15 simulated people, 36 rounds each; stop and restart as you like
   egotouch synth strip data/study strip.png                 # look at some rounds, frame by frame
+  egotouch synth check data/patches thumb_patches --finger thumb --place palm   # do renders look like those photographs?
 """
 
 
@@ -65,6 +70,17 @@ def _add_study(commands: Any) -> None:
     strip.add_argument("--every", type=positive_int, default=2, help="frames per picture (default 2)")
     strip.add_argument("--seed", type=int, default=0)
     strip.set_defaults(handler=_strip)
+    check = commands.add_parser("check", help="compare renders with real patches: sharpness, contrast, creases, colour")
+    check.add_argument("renders", type=Path, help="folder of shards, seen through the training camera, or of a study")
+    check.add_argument("real", type=Path, help="folder with labels.csv and finger-up pictures")
+    check.add_argument("--finger", choices=[str(finger) for finger in Finger], help="only renders of that finger")
+    check.add_argument("--place", choices=[str(place) for place in Surface], help="only renders on that skin")
+    check.add_argument("--count", type=positive_int, default=1500, help="most renders to look at (default 1500)")
+    check.add_argument("--tip", type=point_px, default=THUMB_TIP_PX, metavar="X,Y", help="TIP landmark in the pictures (default 316,175)")
+    check.add_argument("--px-per-mm", type=positive_float, default=THUMB_PX_PER_MM, metavar="S", help="their scale (default 7.3)")
+    check.add_argument("--min-confidence", type=positive_float, default=MIN_CONFIDENCE, metavar="C", help="of labels (default 0.7)")
+    check.add_argument("--seed", type=int, default=0)
+    check.set_defaults(handler=_check)
 
 
 def _report(line: str) -> None:
@@ -121,3 +137,66 @@ def _strip(args: argparse.Namespace) -> int:
     cv2.imwrite(str(args.picture), film_strip(args.folder, args.rows, args.every, args.seed))
     print(args.picture)
     return 0
+
+
+def _check(args: argparse.Namespace) -> int:
+    import numpy as np
+
+    from egotouch_sdk.evaluation.real_patches import read_real_patches
+    from egotouch_sdk.study_data import RECIPE_FILE
+    from egotouch_sdk.synthetic.check import compare, table
+
+    real = read_real_patches(args.real, args.tip, args.px_per_mm, args.min_confidence)
+    read = _study_patches if (args.renders / RECIPE_FILE).exists() else _shard_patches
+    patches, touch = read(args)
+    if not len(touch):
+        raise SourceError(f"no renders of that finger and place in {args.renders}", hint="Leave out --finger or --place")
+    print(f"{len(touch)} renders ({int(touch.sum())} touches) against {len(real)} real patches ({sum(one.touch for one in real)} touches)")
+    print(table(compare(patches, touch, np.stack([one.image for one in real]), np.array([one.touch for one in real]))))
+    return 0
+
+
+def _wanted(args: argparse.Namespace, finger: str, place: str) -> bool:
+    return args.finger in (None, finger) and args.place in (None, place)
+
+
+def _shard_patches(args: argparse.Namespace) -> tuple[Any, Any]:
+    """Patches (N, 100, 100, 3) through a random training camera each, and their labels (N,)."""
+    import numpy as np
+
+    from egotouch_sdk.synthetic.camera import photograph_randomly
+    from egotouch_sdk.training.shards import read_shard
+
+    files = sorted(args.renders.glob("shard-*.npz"))
+    if not files:
+        raise SourceError(f"no shards and no study in {args.renders}", hint="Render some first: egotouch synth patches --out FOLDER")
+    rng = np.random.default_rng(args.seed)
+    patches: list[Any] = []
+    touch: list[bool] = []
+    for file in rng.permutation(np.array(files)):
+        for one in read_shard(file):
+            if len(touch) < args.count and _wanted(args, one.label.finger, one.label.place):
+                patches.append(photograph_randomly(one.layers, rng))
+                touch.append(one.label.touch)
+        if len(touch) >= args.count:
+            break
+    return np.array(patches), np.array(touch, bool)
+
+
+def _study_patches(args: argparse.Namespace) -> tuple[Any, Any]:
+    """Every eighth frame of a study's rounds and their labels."""
+    import numpy as np
+
+    from egotouch_sdk.study_data import open_study, read_round
+
+    files = open_study(args.renders).files
+    patches: list[Any] = []
+    touch: list[bool] = []
+    for k in np.random.default_rng(args.seed).permutation(len(files)):
+        one = read_round(files[k])
+        if _wanted(args, str(one.meta.finger), str(one.meta.place)):
+            patches += list(one.patches[::8])
+            touch += list(one.touch[::8])
+        if len(touch) >= args.count:
+            break
+    return np.array(patches), np.array(touch, bool)
