@@ -12,16 +12,18 @@ PYTEST_ARGS ?= -n 2 --dist loadfile -q
 # where PyTorch, or Playwright and Chromium, are installed).
 EXTRAS ?= dev,synthetic
 ifdef CI
-EXTRAS := browser,dev,evaluation,synthetic,train
+EXTRAS := browser,cluster,dev,evaluation,synthetic,train
 TORCH  ?= torch==2.13.0
 endif
+
+WEB := clients/web
 
 # The hand networks are made while the package is installed; when they are gone, install again.
 HANDS := egotouch_sdk/models/hands/manifest.json
 AGAIN := $(if $(wildcard $(HANDS)),,FORCE)
 PARTS := pyproject.toml hatch_build.py $(wildcard egotouch_sdk/hands/convert/*.py)
 
-.PHONY: help demo test lint proto bench clean FORCE
+.PHONY: help demo test lint web proto bench clean FORCE
 .DEFAULT_GOAL := help
 
 help: ## list the targets
@@ -30,12 +32,26 @@ help: ## list the targets
 demo: $(VENV)/.run ## set everything up and show touches on skin, live, without a camera
 	$(BIN)/egotouch demo $(ARGS)
 
-test: lint ## ruff, mypy and all tests
+test: lint web ## ruff, mypy and all tests, those of the web client too
 	$(BIN)/python -m pytest $(PYTEST_ARGS)
 
 lint: $(VENV)/.dev ## ruff and mypy --strict
 	$(BIN)/ruff check .
 	$(BIN)/mypy
+
+# Without npm only CI complains: whoever changes nothing of the web client needs none.
+ifneq ($(shell command -v npm 2>/dev/null),)
+web: $(VENV)/.dev $(WEB)/node_modules/.installed ## build, check and test the web client and the served pages (needs npm)
+	cd $(WEB) && npm run --silent generate -- --check && npm run --silent check && npm run --silent pages -- --check
+	cd $(WEB) && EGOTOUCH_PYTHON=$(abspath $(BIN)/python) npm test --silent
+else
+web:
+	@echo "There is no npm here, so the web client is not tested. Install Node.js 20 or newer to change it."$(if $(CI), && exit 1)
+endif
+
+$(WEB)/node_modules/.installed: $(WEB)/package.json $(WEB)/package-lock.json
+	cd $(WEB) && npm ci --silent --no-audit --no-fund --ignore-scripts
+	@touch $@
 
 proto: $(VENV)/.dev ## make the Python classes of the schema again
 	$(BIN)/python proto/generate.py
@@ -44,7 +60,7 @@ bench: $(VENV)/.run ## milliseconds per stage and frames per second on this mach
 	$(BIN)/egotouch bench $(ARGS)
 
 clean: ## remove the virtual environment, caches and the converted hand models
-	rm -rf $(VENV) .mypy_cache .pytest_cache .ruff_cache .hypothesis build dist
+	rm -rf $(VENV) .mypy_cache .pytest_cache .ruff_cache .hypothesis build dist $(WEB)/node_modules $(WEB)/dist
 	rm -f egotouch_sdk/models/hands/*.onnx egotouch_sdk/models/hands/manifest.json
 
 $(BIN)/python:

@@ -71,21 +71,22 @@ def add_threads_option(parser: argparse.ArgumentParser) -> None:
 
 
 def add_runner_options(parser: argparse.ArgumentParser) -> None:
-    """--workers and --ray."""
+    """--workers, --ray and --gpus."""
     parser.add_argument("--workers", type=positive_int, default=os.cpu_count() or 1, metavar="N", help="processes (default: all cores)")
     add_ray_option(parser)
 
 
 def add_ray_option(parser: argparse.ArgumentParser) -> None:
-    """--ray."""
+    """--ray and --gpus."""
     parser.add_argument("--ray", metavar="ADDRESS", help="work on a Ray cluster: HOST:PORT, auto, or local to start one on this machine")
+    parser.add_argument("--gpus", type=positive_float, default=0.0, metavar="X", help="with --ray: GPUs per task, 0.5 = two share one")
 
 
 def runner_from(options: argparse.Namespace) -> Runner:
     """What carries out the tasks of a batch: processes of this machine, or a Ray cluster where one was named."""
     from egotouch_sdk.jobs.choice import open_runner
 
-    return open_runner(options.workers, options.ray)
+    return open_runner(options.workers, options.ray, gpus=options.gpus)
 
 
 def positive_int(text: str) -> int:

@@ -50,7 +50,6 @@ def add_parser(subparsers: Subparsers) -> None:
     begin.add_argument("--trials", type=Path, metavar="FILE.toml", help="one run for each recipe in the file, and a table of scores")
     parser.add_argument("--jobs", type=positive_int, default=1, metavar="N", help="folds or trials at a time on this machine (default 1)")
     add_ray_option(parser)
-    parser.add_argument("--gpus", type=positive_float, default=0.0, metavar="X", help="with --ray: GPUs for each run, 0.5 = two share one")
     parser.set_defaults(handler=train)
 
 

@@ -74,6 +74,11 @@ def count_up(scratch: Path, diary: Path, number: int) -> int:
     return number
 
 
+def write_folder(scratch: Path, diary: Path, number: int) -> int:
+    (scratch / "inside").mkdir()
+    return write(scratch / "inside" / "a", diary, number)
+
+
 def wait_for_ever(scratch: Path, diary: Path, number: int) -> int:
     begin(scratch, diary, number)
     while True:

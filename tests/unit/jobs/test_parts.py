@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import pickle
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from egotouch_sdk.errors import ConfigError
-from egotouch_sdk.jobs import Batch, Task
+from egotouch_sdk.jobs import Batch, Task, run_jobs
 from egotouch_sdk.jobs.attempt import attempt, pack, pack_order, unpack
 from egotouch_sdk.jobs.progress import Progress
+from egotouch_sdk.jobs.runner import Outcome
 from egotouch_sdk.jobs.scratch import claim, is_shared, leftovers, scratch_path, sole_run, sweep
-from tests.support.work import visible, write
+from tests.support.work import always_broken, name_of, task, text_of, visible, write, write_folder
 
 
 def test_a_half_done_result_is_hidden_and_found_by_its_name_alone(tmp_path: Path) -> None:
@@ -70,6 +73,41 @@ def test_a_worker_without_the_folder_sends_the_result_back(tmp_path: Path) -> No
     assert outcome.error == "" and outcome.count == 7
     assert outcome.content is not None and outcome.content[""].startswith(b"result 7")
     assert not elsewhere.exists()
+
+
+class Elsewhere:
+    """A runner on a machine that has none of the batch's folders."""
+
+    slots, where = 2, "another machine"
+
+    def __init__(self, nowhere: Path) -> None:
+        self._nowhere, self._orders, self.closed = nowhere, dict[str, bytes](), False
+
+    def start(self, name: str, order: bytes) -> None:
+        content = pickle.loads(order)
+        moved = replace(content, scratch=self._nowhere / content.scratch.name, lock=self._nowhere / content.lock.name)
+        self._orders[name] = pickle.dumps(moved)
+
+    def wait(self) -> list[Outcome]:
+        name = min(self._orders)
+        return [attempt(name, self._orders.pop(name))]
+
+    def close(self) -> None:
+        self.closed = True
+
+
+def test_results_of_a_machine_without_the_folder_are_the_same(tmp_path: Path) -> None:
+    out, diary = tmp_path / "out", tmp_path / "diary"
+    diary.mkdir()
+    tasks = (task(write, diary, 1), task(always_broken, diary, 2), task(write_folder, diary, 3, resumable=True))
+    runner = Elsewhere(tmp_path / "nowhere")
+    result = run_jobs(Batch("batch", out, tasks), runner, lambda line: None)
+    assert sorted(result.new) == [name_of(1), name_of(3)] and result.counted == 4
+    assert [(failure.name, failure.attempts) for failure in result.failures] == [(name_of(2), 3)]
+    assert (out / name_of(1)).read_text() == text_of(1)
+    assert (out / name_of(3) / "inside" / "a").read_text() == text_of(3)
+    assert visible(out) == [name_of(1), name_of(3)]
+    assert runner.closed and not (tmp_path / "nowhere").exists()
 
 
 def test_a_worker_of_another_version_refuses(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
