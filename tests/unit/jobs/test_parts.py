@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 import pickle
+import re
+import subprocess
+import sys
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+import egotouch_sdk.jobs
+from egotouch_sdk.cli.main import build_parser
 from egotouch_sdk.errors import ConfigError
 from egotouch_sdk.jobs import Batch, Task, run_jobs
 from egotouch_sdk.jobs.attempt import attempt, pack, pack_order, unpack
@@ -144,3 +149,24 @@ def test_progress_counts_only_what_this_run_did() -> None:
     assert Progress(10, 6, 2, 0, 7200.0).line("folds", "") == "6/10 folds: 2 new folds, 1 per hour, 4.0 h left"
     assert Progress(3, 3, 1, 0, 600.0).line("folds", "") == "3/3 folds: 1 new folds, 6 per hour, 0 s left"
     assert Progress(3, 0, 0, 0, 0.0).line("folds", "").endswith("0 s left")
+
+
+README = Path(egotouch_sdk.jobs.__file__).with_name("README.md").read_text(encoding="utf-8")
+
+
+def test_every_command_line_of_the_readme_is_accepted() -> None:
+    lines = [line.split("#")[0].split() for line in README.splitlines() if line.startswith("egotouch ")]
+    assert len(lines) >= 5
+    for line in lines:
+        assert callable(build_parser().parse_args(line[1:]).handler)
+
+
+def test_the_readmes_own_batch_runs(tmp_path: Path) -> None:
+    (example,) = re.findall(r"```python\n(.*?)```", README, re.DOTALL)
+    (tmp_path / "own.py").write_text(example)
+    (tmp_path / "texts").mkdir()
+    (tmp_path / "texts" / "x.txt").write_text("b a b")
+    done = subprocess.run([sys.executable, "own.py"], cwd=tmp_path, capture_output=True, text=True, timeout=120, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert (tmp_path / "out" / "x.words").read_text() == "a\nb"
+    assert visible(tmp_path / "out") == ["x.words"]
