@@ -17,13 +17,14 @@ TORCH  ?= torch==2.13.0
 endif
 
 WEB := clients/web
+BUF := npx -y -p @bufbuild/buf@1.75.0 buf
 
 # The hand networks are made while the package is installed; when they are gone, install again.
 HANDS := egotouch_sdk/models/hands/manifest.json
 AGAIN := $(if $(wildcard $(HANDS)),,FORCE)
 PARTS := pyproject.toml hatch_build.py $(wildcard egotouch_sdk/hands/convert/*.py)
 
-.PHONY: help demo test lint web proto bench clean FORCE
+.PHONY: help demo test lint web proto schema bench clean FORCE
 .DEFAULT_GOAL := help
 
 help: ## list the targets
@@ -55,6 +56,10 @@ $(WEB)/node_modules/.installed: $(WEB)/package.json $(WEB)/package-lock.json
 
 proto: $(VENV)/.dev ## make the Python classes of the schema again
 	$(BIN)/python proto/generate.py
+
+schema: ## lint the schema and compare it with the last release (needs npm)
+	$(BUF) lint proto
+	$(BUF) breaking proto --against proto/egotouch/v1/baseline.binpb
 
 bench: $(VENV)/.run ## milliseconds per stage and frames per second on this machine
 	$(BIN)/egotouch bench $(ARGS)
