@@ -144,7 +144,8 @@ class FingerMotion:
         drift = (self._drift_mm[..., None] * np.sin(2 * np.pi * self._drift_hz[..., None] * t + self._drift_phase[..., None])).sum(1)
         height_mm = np.maximum(signed_mm + 0.4 * drift[2] * np.clip(signed_mm / 3, 0, 1), least_mm)
         raised = np.clip(signed_mm, 0.0, None) / self._start_mm
-        at_mm = at_mm + drift[:2].T * np.where(touch, 0.35, 1.0)[:, None] + raised[:, None] * self._swing
+        held = 1 - 0.65 * np.clip(1 - signed_mm / 5, 0.0, 1.0)
+        at_mm = at_mm + drift[:2].T * held[:, None] + raised[:, None] * self._swing
         return FingerPath(
             touch=touch,
             hover_mm=np.where(touch, 0.0, height_mm),

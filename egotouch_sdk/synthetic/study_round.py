@@ -14,7 +14,7 @@ from egotouch_sdk.patches import PATCH_PX_PER_MM, polar
 from egotouch_sdk.study_data import RoundMeta, StudyRound
 from egotouch_sdk.surface import Surface
 from egotouch_sdk.synthetic.backdrop import draw_backdrop
-from egotouch_sdk.synthetic.camera import LightLayers, photograph
+from egotouch_sdk.synthetic.camera import LUMA, LightLayers, photograph
 from egotouch_sdk.synthetic.camera_settings import MIX_WEIGHTS, CameraSettings, LightMix, draw_settings
 from egotouch_sdk.synthetic.finger_motion import FingerMotion, FingerPath
 from egotouch_sdk.synthetic.hand_rig import HandRig
@@ -40,6 +40,10 @@ _BLANCH_STEP_S = 1 / 300
 #: Longest smear of the finger and of the whole picture in patch pixels, the bounds of the training camera.
 _MAX_FINGER_PX, _MAX_CAMERA_PX = 14.0, 6.0
 _NOISE, _DIM_NOISE, _DAYLIGHT_NOISE = (0.001, 0.006), 2.0, 0.6
+#: A camera brightens dark skin only in part: its level follows the tone's luma, relative to type III's, to this power (our choice).
+_METERING, _MIDDLE_LUMA, _SKIN_LEVEL = 0.4, 0.36, (0.06, 0.42)
+#: Bounds that keep 8 samples' noise from looking like hair, and the spread of tone from one round to the next.
+_MAX_OCCLUSION, _MIN_SAMPLE_BLUR_PX, _TONE_SPREAD = 2.4, 1.1, 0.04
 
 
 @dataclass(frozen=True, slots=True)
@@ -125,7 +129,7 @@ def _draw_scene(plan: RoundPlan, level: int) -> _Scene:
         plan,
         stage,
         lights,
-        _draw_camera(np.random.default_rng([plan.seed, 1]), facts.mix, plan.outdoors),
+        _draw_camera(np.random.default_rng([plan.seed, 1]), plan, _skin(plan.participant, level).traits.tone),
         FingerMotion(np.random.default_rng([plan.seed, 2]), plan.touch_type, plan.seconds),
         HeadMotion(rng, plan.walking),
         draw_tracker_error(rng, plan.frames, plan.fps),
@@ -145,14 +149,25 @@ def _draw_stage(rng: np.random.Generator, plan: RoundPlan, level: int) -> Stage:
     raise ImpossibleSceneError(f"no possible scene in {_MAX_DRAWS} draws for participant {plan.participant}, round {plan.number}")
 
 
-def _draw_camera(rng: np.random.Generator, mix: LightMix, outdoors: bool) -> CameraSettings:
-    """One camera for a round: a draw of the training camera without its tracker error and motion, lit as the round is."""
+def _draw_camera(rng: np.random.Generator, plan: RoundPlan, tone: tuple[float, float, float]) -> CameraSettings:
+    """One camera for a round: a draw of the training camera without its tracker error and motion, lit as the round is.
+
+    The participant's skin keeps its tone, the camera meters half-way towards it, and only palms have folds.
+    """
+    mix = LIGHTS[plan.light].mix
+    drawn = draw_settings(rng)
     weights = np.array([rng.uniform(low, high) for low, high in MIX_WEIGHTS[mix]])
-    warmth, tint = rng.normal(-0.02 if outdoors else 0.02, 0.07, 3), rng.normal(0, 0.015, 3)
-    noise = np.exp(rng.uniform(*np.log(_NOISE))) * (_DIM_NOISE if mix is LightMix.DIM else _DAYLIGHT_NOISE if outdoors else 1.0)
+    warmth, tint = rng.normal(-0.02 if plan.outdoors else 0.02, 0.07, 3), rng.normal(0, 0.015, 3)
+    noise = np.exp(rng.uniform(*np.log(_NOISE))) * (_DIM_NOISE if mix is LightMix.DIM else _DAYLIGHT_NOISE if plan.outdoors else 1.0)
+    metered = (float(np.array(tone) @ LUMA) / _MIDDLE_LUMA) ** _METERING
     return replace(
-        draw_settings(rng),
+        drawn,
         light_gains=(weights[:, None] * np.exp(np.stack([warmth, tint, -warmth], 1))).astype(np.float32),
+        occlusion_power=min(drawn.occlusion_power, _MAX_OCCLUSION),
+        sample_blur_px=max(drawn.sample_blur_px, _MIN_SAMPLE_BLUR_PX),
+        folds=drawn.folds if plan.place == "palm" else drawn.folds[:0],
+        tone_power=float(np.exp(rng.normal(0, _TONE_SPREAD))),
+        skin_level=float(np.clip(drawn.skin_level * metered, *_SKIN_LEVEL)),
         shift_px=(0.0, 0.0),
         turn_rad=0.0,
         scale=1.0,
