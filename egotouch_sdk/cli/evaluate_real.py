@@ -24,8 +24,20 @@ REAL_EXAMPLES = """\
 """
 FALSE_EXAMPLES = """\
   egotouch evaluate false-touches clips/*.mp4                   false touches per minute, of each clip and of all
+  egotouch evaluate false-touches clips/*.mp4 --without-gate    as if a hand to touch were always near
   egotouch evaluate false-touches clips/*.mp4 --json            one JSON object per clip and one for all
 """
+#: Columns of the tables, by figure.
+TOUCH_COLUMNS = {
+    "touches": "touches",
+    "hovers": "hovers",
+    "auroc": "AUROC",
+    "darkness_auroc": "darkness",
+    "accuracy": "accuracy",
+    "true_positive_rate": "TPR",
+    "false_positive_rate": "FPR",
+}
+FORCE_COLUMNS = {"force_spearman": "force rank", "force_spearman_above_floor": "above floor"}
 #: Where the TIP landmark lies in the finger-up pictures of the thumb study, and their scale (measured on them).
 THUMB_TIP_PX = (316.0, 175.0)
 THUMB_PX_PER_MM = 7.3
@@ -46,6 +58,9 @@ def add_parsers(kinds: Subparsers) -> None:
     false = add_command(kinds, "false-touches", "count touches in video without any", FALSE_EXAMPLES)
     false.add_argument("videos", nargs="+", metavar="VIDEO", help="video files, image folders or cameras")
     false.add_argument("--model", type=Path, metavar="FILE", help="touch model .onnx with its .json (default: the shipped one)")
+    false.add_argument(
+        "--without-gate", action="store_true", help="show every outstretched finger to the model"
+    )
     add_pipeline_options(false)
     add_report_options(false)
     false.set_defaults(handler=evaluate_false_touches)
@@ -75,40 +90,42 @@ def evaluate_real(options: argparse.Namespace) -> int:
             f"Force is the rank correlation with the raw sensor over touches with a reading; the floor is {FLOOR_COUNTS:g} counts. "
             "Darkness is the trivial rule that the darker patch is the touch."
         )
-        sections = (Section("By recording", (_real_table(rows),)), Section("How it was scored", (Text(text),)))
+        touch, force = _real_table(rows, TOUCH_COLUMNS), _real_table(rows, FORCE_COLUMNS)
+        sections = (
+            Section("Touch by recording", (touch,)),
+            Section("Force by recording", (force,)),
+            Section("How it was scored", (Text(text),)),
+        )
         write_document(options.report, Document("Touch model on real skin", (Facts(facts),), sections))
     if options.json:
         print_json(report)
         return 0
     print(f"{report['model']}, threshold {threshold}")
-    _print_table(_real_table(rows))
+    _print_table(_real_table(rows, {**TOUCH_COLUMNS, **FORCE_COLUMNS}))
     return 0
 
 
-def _real_table(rows: Mapping[str, Mapping[str, Any]]) -> Table:
+def _real_table(rows: Mapping[str, Mapping[str, Any]], columns: Mapping[str, str]) -> Table:
     from egotouch_sdk.evaluation.document import Table
 
-    head = ("", "touches", "hovers", "AUROC", "darkness", "accuracy", "TPR", "FPR", "force rank", "above floor")
-    columns = ("auroc", "darkness_auroc", "accuracy", "true_positive_rate", "false_positive_rate", "force_spearman",
-               "force_spearman_above_floor")  # fmt: skip
-    cells = [
-        (name, str(scores["touches"]), str(scores["hovers"]), *(_cell(scores, column) for column in columns))
-        for name, scores in rows.items()
-    ]
-    return Table(head, tuple(cells))
+    cells = ((name, *(_cell(row, column) for column in columns)) for name, row in rows.items())
+    return Table(("", *columns.values()), tuple(cells))
 
 
 def _cell(scores: Mapping[str, Any], column: str) -> str:
     value, interval = scores.get(column), scores.get(f"{column}_interval")
     if value is None:
         return "–"
+    if isinstance(value, int):
+        return str(value)
     return f"{value:.3f}" + (f" [{interval[0]:.2f}, {interval[1]:.2f}]" if interval else "")
 
 
 def evaluate_false_touches(options: argparse.Namespace) -> int:
     """Run clips through the whole pipeline and print false touches per minute."""
     from egotouch_sdk.evaluation.document import Document, Facts, Section, Table, write_document
-    from egotouch_sdk.evaluation.false_touches import FalseTouches, count_false_touches
+    from egotouch_sdk.evaluation.false_touches import FalseTouches, count_false_touches, count_without_gate
+    from egotouch_sdk.hands.tracker import HandTracker
     from egotouch_sdk.pipeline import TouchPipeline
     from egotouch_sdk.sources import open_frames
     from egotouch_sdk.touch import TouchModel
@@ -118,14 +135,24 @@ def evaluate_false_touches(options: argparse.Namespace) -> int:
     clips: list[tuple[str, FalseTouches]] = []
     for spec in options.videos:
         with open_frames(spec) as source:
-            clips.append((spec, count_false_touches(source, TouchPipeline(config, touch=model))))
+            if options.without_gate:
+                counted = count_without_gate(source, HandTracker(**config.hands.model_dump()), model, config)
+            else:
+                counted = count_false_touches(source, TouchPipeline(config, touch=model))
+        clips.append((spec, counted))
         _print_false_touches(*clips[-1], options.json)
     clips.append(("all", sum((counted for _, counted in clips), FalseTouches(0, 0.0, 0, 0, 0, 0))))
     _print_false_touches(*clips[-1], options.json)
+    gate = "No gate: every outstretched finger is shown to the model." if options.without_gate else "The gate decides, as in live use."
+    if not clips[-1][1].frames_with_open_gate:
+        gate += " It never opened, so the touch model was never asked: see --without-gate."
+    if not options.json:
+        print(gate)
     if options.report:
         head = ("", "seconds", "gate open, s", "false touches", "per minute", "95 % interval")
         rows = tuple((Path(name).name, *_false_cells(counted)) for name, counted in clips)
-        facts = Facts((("Model", f"{model.manifest.name} {model.manifest.version}, sha256 {model.manifest.sha256[:12]}"),))
+        own = f"{model.manifest.name} {model.manifest.version}, sha256 {model.manifest.sha256[:12]}"
+        facts = Facts((("Model", own), ("Gate", gate)))
         table = Table(head, rows, frozenset({len(rows) - 1}))
         write_document(options.report, Document("False touches where nothing is touched", (facts,), (Section("By clip", (table,)),)))
     return 0

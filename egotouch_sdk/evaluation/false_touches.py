@@ -2,16 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from math import exp, inf, lgamma, log, sqrt
 from typing import TYPE_CHECKING
 
+import numpy as np
+
+from egotouch_sdk.evaluation.study_run import StillFingers
+from egotouch_sdk.gate import active_fingers
+from egotouch_sdk.joints import NUM_JOINTS, Handedness
+from egotouch_sdk.observation import HandObservation, TouchPair
+from egotouch_sdk.patches import extract
+from egotouch_sdk.state import Thresholds
 from egotouch_sdk.touch_event import CancelReason, EventType
 
 if TYPE_CHECKING:
+    from egotouch_sdk.config import TouchConfig
     from egotouch_sdk.frame import Frame
+    from egotouch_sdk.hands.base import HandSource
     from egotouch_sdk.pipeline import TouchPipeline
+    from egotouch_sdk.touch import TouchModel
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,6 +96,38 @@ def count_false_touches(frames: Iterable[Frame], pipeline: TouchPipeline) -> Fal
         gate_open += result.gate.is_open
     if times:
         pipeline.finish(times[-1], CancelReason.SOURCE_ENDED)
-    span_ns = times[-1] - times[0] if len(times) > 1 else 0
-    duration_s = span_ns / 1e9 * (len(times) / max(len(times) - 1, 1))
-    return FalseTouches(len(times), duration_s, downs, patches, with_hands, gate_open)
+    return FalseTouches(len(times), _duration_s(times), downs, patches, with_hands, gate_open)
+
+
+def count_without_gate(frames: Iterable[Frame], hands: HandSource, model: TouchModel, config: TouchConfig) -> FalseTouches:
+    """The same with no gate before the model: every finger that could touch is shown to it, host unknown, and counts as open.
+
+    Harder than live use: a single hand in the air never gets that far there.
+    """
+    own = Thresholds(model.manifest.down_probability, model.manifest.up_probability).overridden_by(config.state)
+    chain = StillFingers(own, config.state)
+    times: list[int] = []
+    downs = patches = with_hands = shown = 0
+    for frame in frames:
+        seen = [hand for hand in hands.track(frame) if hand.score >= config.gate.min_touching_score]
+        pairs = [TouchPair(hand, nobody(hand), 0.0, active_fingers(hand, config.gate)) for hand in seen]
+        cut = [patch for pair in pairs for patch in extract(frame, pair, config.patches, mirrored=config.hands.mirrored)]
+        sides = {hand.hand_id: hand.handedness for hand in seen}
+        _, events = chain.step(model.estimate(cut), frame.timestamp_ns, sides)
+        times.append(frame.timestamp_ns)
+        downs += sum(event.type is EventType.DOWN for event in events)
+        patches, with_hands, shown = patches + len(cut), with_hands + bool(seen), shown + bool(cut)
+    hands.reset()
+    return FalseTouches(len(times), _duration_s(times), downs, patches, with_hands, shown)
+
+
+def nobody(hand: HandObservation) -> HandObservation:
+    """A host without an axis for a hand that is alone: (R, theta) of its fingers stays unknown."""
+    nowhere = np.zeros((NUM_JOINTS, 3), np.float32)
+    side = Handedness.LEFT if hand.handedness is Handedness.RIGHT else Handedness.RIGHT
+    return HandObservation(hand.hand_id + 1, side, 0.0, nowhere, nowhere)
+
+
+def _duration_s(times_ns: Sequence[int]) -> float:
+    span_ns = times_ns[-1] - times_ns[0] if len(times_ns) > 1 else 0
+    return span_ns / 1e9 * (len(times_ns) / max(len(times_ns) - 1, 1))

@@ -17,6 +17,7 @@ from egotouch_sdk.state import FingertipSample, PointerState, Thresholds, TouchS
 from egotouch_sdk.study_data import StudyRound
 from egotouch_sdk.surface import Surface
 from egotouch_sdk.touch import TouchModel
+from egotouch_sdk.touch_event import TouchEvent
 
 #: Patches shown to the model at once (our choice; more is no faster on two cores).
 BATCH = 64
@@ -72,30 +73,53 @@ def estimate_frames(study_round: StudyRound, model: TouchModel) -> dict[int, Tou
 def follow(times_ns: Sequence[int], estimates: Mapping[int, TouchEstimate], thresholds: Thresholds, config: StateConfig) -> Answers:
     """Run one finger's estimates, by number of the frame in `times_ns` (T,), through the median and the state machine.
 
-    Frames without an estimate count as not seen. The finger stays at its place: these are touches of which only the pictures are known.
+    Frames without an estimate count as not seen.
     """
-    thresholds = thresholds.overridden_by(config)
-    median, machine = MedianFilter(config.coast_frames), TouchStateMachine(config, thresholds)
-    stall_ns, last_ns = config.stall_ms * 1e6, None
+    chain = StillFingers(thresholds.overridden_by(config), config)
+    sides = {estimate.hand_id: Handedness.RIGHT for estimate in estimates.values()}
     told = np.full((4, len(times_ns)), np.nan)
     live = np.zeros(len(times_ns), bool)
     for frame, timestamp_ns in enumerate(times_ns):
-        if last_ns is not None and timestamp_ns - last_ns > stall_ns:
-            median.reset()
-        last_ns = timestamp_ns
         raw = [estimates[frame]] if frame in estimates else []
-        filtered = median.apply(raw)
-        machine.step([_sample(estimate) for estimate in filtered], timestamp_ns)
+        filtered, _ = chain.step(raw, timestamp_ns, sides)
         for own, smooth in zip(raw, filtered, strict=True):
             told[:, frame] = own.touch_probability, own.force_n, smooth.touch_probability, smooth.force_n
-        live[frame] = any(state is PointerState.TOUCH for state, _ in machine.pointers.values())
+        live[frame] = chain.is_touching
     return Answers(told[0], told[1], told[2], told[3], live)
 
 
-def _sample(estimate: TouchEstimate) -> FingertipSample:
+class StillFingers:
+    """The live chain behind the touch model, for fingers of which only pictures are known: each stays where it is on the skin.
+
+    Settings of `config` are those of `state`; `thresholds` count as they are.
+    """
+
+    def __init__(self, thresholds: Thresholds, config: StateConfig) -> None:
+        self._median = MedianFilter(config.coast_frames)
+        self._machine = TouchStateMachine(config, thresholds)
+        self._stall_ns = config.stall_ms * 1e6
+        self._last_ns: int | None = None
+
+    def step(
+        self, estimates: Sequence[TouchEstimate], timestamp_ns: int, sides: Mapping[int, Handedness]
+    ) -> tuple[tuple[TouchEstimate, ...], tuple[TouchEvent, ...]]:
+        """One frame's estimates, filtered, and the events they cause; `sides` tells the hand of each `hand_id`."""
+        if self._last_ns is not None and timestamp_ns - self._last_ns > self._stall_ns:
+            self._median.reset()
+        self._last_ns = timestamp_ns
+        filtered = self._median.apply(estimates)
+        return filtered, self._machine.step([_sample(each, sides[each.hand_id]) for each in filtered], timestamp_ns)
+
+    @property
+    def is_touching(self) -> bool:
+        """True while any finger touches."""
+        return any(state is PointerState.TOUCH for state, _ in self._machine.pointers.values())
+
+
+def _sample(estimate: TouchEstimate, side: Handedness) -> FingertipSample:
     return FingertipSample(
         hand_id=estimate.hand_id,
-        handedness=Handedness.RIGHT,
+        handedness=side,
         finger=estimate.finger,
         touch_probability=estimate.touch_probability,
         force_n=estimate.force_n,

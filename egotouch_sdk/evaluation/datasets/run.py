@@ -10,13 +10,14 @@ import numpy as np
 from egotouch_sdk.config import TouchConfig
 from egotouch_sdk.errors import SourceError
 from egotouch_sdk.evaluation.datasets.recording import GivenHands, LabelledRecording
+from egotouch_sdk.evaluation.false_touches import nobody
 from egotouch_sdk.evaluation.round_score import RoundScore, Truth, score_round
 from egotouch_sdk.evaluation.study_run import Answers, follow
 from egotouch_sdk.frame import Frame
 from egotouch_sdk.frame_result import FrameResult
 from egotouch_sdk.hands.base import HandSource
-from egotouch_sdk.joints import NUM_JOINTS, Handedness
-from egotouch_sdk.observation import HandObservation, TouchEstimate, TouchPair
+from egotouch_sdk.joints import Handedness
+from egotouch_sdk.observation import TouchEstimate, TouchPair
 from egotouch_sdk.patches import extract
 from egotouch_sdk.pipeline import TouchPipeline
 from egotouch_sdk.state import PointerState, Thresholds
@@ -117,16 +118,9 @@ def _alone(recording: LabelledRecording, model: TouchModel, config: TouchConfig,
     seen = []
     for frame in recording.read():
         hands = (recording.landmarks or {}).get(frame.index, ())
-        pairs = [TouchPair(hand, _nobody(hand), 0.0, (recording.finger,)) for hand in hands]
+        pairs = [TouchPair(hand, nobody(hand), 0.0, (recording.finger,)) for hand in hands]
         patches = [patch for pair in pairs for patch in extract(frame, pair, config.patches, mirrored=config.hands.mirrored)]
         seen.append(_Seen(frame.index, frame.timestamp_ns, next(iter(model.estimate(patches[:1])), None)))
         if done is not None:
             done(frame)
     return seen
-
-
-def _nobody(hand: HandObservation) -> HandObservation:
-    """A host without an axis: (R, theta) stays unknown."""
-    nowhere = np.zeros((NUM_JOINTS, 3), np.float32)
-    side = Handedness.LEFT if hand.handedness is Handedness.RIGHT else Handedness.RIGHT
-    return HandObservation(hand.hand_id + 1, side, 0.0, nowhere, nowhere)

@@ -45,6 +45,7 @@ def test_real_pictures_are_told_by_recording_with_the_darkness_rule(
     lines = capsys.readouterr().out.splitlines()
     assert [line.split()[0] for line in lines[2:]] == ["push0", "push1", "pooled"] and "threshold 0.600" in lines[0]
     assert "| pooled | 4 | 4 | 0.500 [0.50, 0.50] | 1.000 [1.00, 1.00] |" in report.read_text()
+    assert "## Force by recording" in report.read_text()
     assert main(["evaluate", "real", str(pictures), "--model", model, "--json"]) == 0
     told = json.loads(capsys.readouterr().out)
     assert told["pooled"]["darkness_auroc"] == 1.0 and told["recordings"]["push0"]["touches"] == 2
@@ -62,6 +63,14 @@ def test_false_touches_are_told_by_clip_and_pooled(video: Path, tmp_path: Path, 
     ]
     assert clips[-1]["interval_per_minute"][1] > 60
     assert "| **all** | 2.0 | 0.0 | 0 | 0.00 |" in report.read_text()
+
+
+def test_a_gate_that_never_opens_is_told(video: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    arguments = ["evaluate", "false-touches", str(video), "--model", str(signal_model(tmp_path))]
+    assert main(arguments) == 0
+    assert capsys.readouterr().out.endswith("It never opened, so the touch model was never asked: see --without-gate.\n")
+    assert main([*arguments, "--without-gate"]) == 0
+    assert "No gate: every outstretched finger is shown to the model." in capsys.readouterr().out
 
 
 @pytest.mark.parametrize("kind", ["real", "false-touches"])

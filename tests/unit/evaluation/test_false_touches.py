@@ -1,11 +1,18 @@
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from egotouch_sdk.evaluation.false_touches import FalseTouches, count_false_touches, poisson_interval
+from egotouch_sdk.config import TouchConfig
+from egotouch_sdk.evaluation.datasets.recording import GivenHands
+from egotouch_sdk.evaluation.false_touches import FalseTouches, count_false_touches, count_without_gate, poisson_interval
 from egotouch_sdk.frame import Frame
+from egotouch_sdk.observation import HandObservation
 from egotouch_sdk.pipeline import TouchPipeline
+from egotouch_sdk.touch import TouchModel
+from tests.support.datasets import picture, touching_pair
+from tests.support.study import colour_model
 
 SECOND_NS = 1_000_000_000
 
@@ -53,3 +60,29 @@ def test_no_false_touch_in_a_minute_still_allows_for_some() -> None:
     counted = FalseTouches(1800, 60.0, 0, 0, 0, 450)
     assert counted.interval_per_minute == pytest.approx((0.0, 3.689), abs=1e-3) and counted.open_gate_s == 15.0
     assert FalseTouches(0, 0.0, 0, 0, 0, 0).interval_per_minute == (0.0, float("inf"))
+
+
+def coloured(text: str, hands: tuple[HandObservation, ...], folder: Path) -> tuple[FalseTouches, FalseTouches]:
+    """What is counted with and without a gate where `hands` are seen all the time and `#` looks like a touch."""
+    pictures = [Frame(picture(letter), i * SECOND_NS // 30, i) for i, letter in enumerate(text)]
+    model, given = TouchModel(colour_model(folder)), GivenHands(dict.fromkeys(range(len(text)), hands))
+    gated = count_false_touches(pictures, TouchPipeline(hands=given, touch=model))
+    return gated, count_without_gate(pictures, given, model, TouchConfig())
+
+
+def test_a_lone_finger_that_looks_like_a_touch_counts_only_without_the_gate(tmp_path: Path) -> None:
+    finger, _ = touching_pair()
+    gated, ungated = coloured("....####....####....", (finger,), tmp_path)
+    assert (gated.downs, gated.patches, gated.frames_with_open_gate) == (0, 0, 0)
+    assert (ungated.downs, ungated.patches, ungated.frames_with_open_gate) == (2, 20, 20)
+    assert ungated.duration_s == gated.duration_s == pytest.approx(20 / 30)
+
+
+def test_without_the_gate_every_outstretched_finger_of_both_hands_is_shown(tmp_path: Path) -> None:
+    gated, ungated = coloured("....####....", touching_pair(), tmp_path)
+    assert (gated.downs, gated.patches) == (1, 12) and (ungated.downs, ungated.patches) == (6, 72)
+
+
+def test_an_empty_scene_has_nothing_to_show_without_the_gate_either(tmp_path: Path) -> None:
+    _, ungated = coloured("..##..", (), tmp_path)
+    assert (ungated.downs, ungated.patches, ungated.frames_with_hands, ungated.frames) == (0, 0, 0, 6)
