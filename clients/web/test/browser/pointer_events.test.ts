@@ -22,7 +22,7 @@ const RIGHT = [150, 150] as const;
 const LABEL = [80, 75] as const;
 const LINK = [150, 75] as const;
 
-describe.skipIf(chromiumPath() === null)("pointer events", () => {
+describe.skipIf(chromiumPath() === null)("pointer events", { retry: 1 }, () => {
   let browser: Browser;
   let script: string;
   let page: Page;

@@ -1,4 +1,4 @@
-import { describe, expect, test } from "vitest";
+import { describe, expect, test, vi } from "vitest";
 import { EgoTouchClient, type TouchEvent } from "../../src/index.js";
 import { FakeServer } from "../../src/testing/index.js";
 import { connected } from "../support/heard.js";
@@ -55,6 +55,7 @@ describe("listeners", () => {
   });
 
   test("a listener that throws harms nobody and is told to onError", () => {
+    const printed = vi.spyOn(console, "error").mockImplementation(() => {});
     const { server, client, errors } = connected();
     const heard: string[] = [];
     client.onClick(() => {
@@ -68,6 +69,8 @@ describe("listeners", () => {
     expect(heard).toEqual(["click"]);
     expect(errors).toMatchObject([{ listener: "onClick", error: { message: "my mistake" }, event: { type: "click" } }]);
     expect(client.stats.listenerErrors).toBe(2);
+    expect(printed).toHaveBeenCalledExactlyOnceWith("onError has thrown", expect.any(Error));
+    printed.mockRestore();
   });
 
   test("only a long click that returns true consumes the click, of its contact, for everyone", () => {
