@@ -7,7 +7,7 @@ import { NOTES, STATES, STATE_COLOURS, type ShownState } from "../words.js";
 import { HandShape } from "./hand_shape.js";
 import { KeyMesh } from "./key.js";
 import { Painted } from "./painting.js";
-import { AmbientLight, CircleGeometry, Color, DirectionalLight, Group, Mesh, MeshBasicMaterial, RingGeometry, Scene } from "./three_parts.js";
+import { AmbientLight, Color, DirectionalLight, Group, Mesh, MeshBasicMaterial, RingGeometry, Scene } from "./three_parts.js";
 
 /** Keys are hidden when the skin is seen flatter than this (cosine; about 84 degrees) or from behind. */
 const LEAST_FACING = 0.1;
@@ -142,7 +142,7 @@ export class KeypadScene extends Scene {
       context.textBaseline = "middle";
       context.textAlign = "left";
       context.fillStyle = "#eef6fc";
-      context.font = `300 ${number.length > 12 ? 5.6 : 8.6}px system-ui, sans-serif`;
+      context.font = `400 ${number.length > 12 ? 5.6 : 8.6}px system-ui, sans-serif`;
       context.fillText(number, -width / 2 + 5, -3.2, width - 10);
       context.font = "500 3.4px system-ui, sans-serif";
       context.fillStyle = (note.serial > 0 && NOTE_COLOURS[note.kind]) || "#a3b3c5";
@@ -169,28 +169,23 @@ export class KeypadScene extends Scene {
   }
 }
 
-/** A ring where a fingertip is, a disc that grows with its force where it touches. */
+/** A ring where a fingertip is, which grows with its force. */
 class FingerMark extends Group {
-  readonly #ring = new Mesh(new RingGeometry(4.6, 5.4, 40), new MeshBasicMaterial({ color: 0xffe3cc, transparent: true, opacity: 0.85 }));
-  readonly #disc = new Mesh(new CircleGeometry(1, 40), new MeshBasicMaterial({ color: 0xffe3cc, transparent: true, opacity: 0.35, depthWrite: false }));
+  readonly #ring = new Mesh(new RingGeometry(0.88, 1, 48), new MeshBasicMaterial({ color: 0xffdcbd, transparent: true, depthWrite: false }));
 
   constructor() {
     super();
-    this.add(this.#ring, this.#disc);
-    this.#disc.position.z = 0.1;
+    this.add(this.#ring);
   }
 
   show({ isTouching, forceN }: FingerLook): void {
-    this.#disc.visible = isTouching;
-    this.#disc.scale.setScalar(2.4 + 2.6 * Math.min(forceN / FULL_FORCE_N, 1));
-    this.#ring.material.opacity = isTouching ? 0.95 : 0.6;
+    this.#ring.scale.setScalar(isTouching ? 6.2 + 2.6 * Math.min(forceN / FULL_FORCE_N, 1) : 5.6);
+    this.#ring.material.opacity = isTouching ? 1 : 0.6;
   }
 
   dispose(): void {
     this.removeFromParent();
-    for (const mesh of [this.#ring, this.#disc]) {
-      mesh.geometry.dispose();
-      mesh.material.dispose();
-    }
+    this.#ring.geometry.dispose();
+    this.#ring.material.dispose();
   }
 }

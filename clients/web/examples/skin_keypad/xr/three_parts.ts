@@ -3,7 +3,6 @@ export {
   AmbientLight,
   CanvasTexture,
   CapsuleGeometry,
-  CircleGeometry,
   Color,
   DirectionalLight,
   ExtrudeGeometry,
