@@ -18,6 +18,7 @@ from egotouch_sdk.jobs.runner import Outcome
 
 #: The address that starts a Ray of this machine's own.
 LOCAL = "local"
+_QUIET = {"RAY_USAGE_STATS_ENABLED": "0", "RAY_ACCEL_ENV_VAR_OVERRIDE_ON_ZERO": "0"}
 #: Results are a few megabytes and leave the store at once; what does not fit goes to disk.
 _LOCAL_STORE_BYTES = 128 * 2**20
 #: The path of a Unix socket holds about 100 characters; a folder of the user's own can be too deep.
@@ -32,16 +33,17 @@ class RayCluster:
     """A `Runner` on the cluster at `address`: "local", "auto", "HOST:PORT" of the head or "ray://HOST:10001" from outside.
 
     Each order holds `cpus` processor cores and `gpus` GPUs, of which it sees no others (0.5: two share one). `local_cpus` is the size of
-    the local Ray. Raises `MissingExtraError` without Ray and
-    `ConfigError` when no cluster answers.
+    the local Ray. Raises `MissingExtraError` without Ray and `ConfigError` when no cluster answers.
     """
 
     def __init__(self, address: str, cpus: int = 1, gpus: float = 0.0, local_cpus: int | None = None) -> None:
-        for name, value in (_environment() | (_local_environment() if address == LOCAL else {})).items():
-            os.environ.setdefault(name, value)
+        wanted = _QUIET | (_local_environment() if address == LOCAL else {})
+        self._environment = {name: value for name, value in wanted.items() if name not in os.environ}
+        os.environ.update(self._environment)
         try:
             import ray
         except ImportError as missing:
+            self._restore_environment()
             raise MissingExtraError("Running on a Ray cluster", "cluster") from missing
         self._ray = ray
         self._needs = {"CPU": float(cpus), "GPU": gpus}
@@ -94,8 +96,13 @@ class RayCluster:
             ray.wait(list(self._running), num_returns=len(self._running), timeout=_END_S)
         self._running.clear()
         ray.shutdown()
+        self._restore_environment()
         if self._folder:
             shutil.rmtree(self._folder, ignore_errors=True)
+
+    def _restore_environment(self) -> None:
+        for name in self._environment:
+            os.environ.pop(name, None)
 
     def _hear(self, reference: Any) -> Outcome:
         name = self._running.pop(reference)
@@ -113,10 +120,6 @@ def _knock(address: str) -> None:
     host, _, port = address.rpartition("/")[2].rpartition(":")
     if host and port.isdigit():
         socket.create_connection((host.strip("[]"), int(port)), _PATIENCE_S * 5).close()
-
-
-def _environment() -> dict[str, str]:
-    return {"RAY_USAGE_STATS_ENABLED": "0", "RAY_ACCEL_ENV_VAR_OVERRIDE_ON_ZERO": "0"}
 
 
 def _local_environment() -> dict[str, str]:

@@ -180,11 +180,11 @@ def stuck(place: Place, tmp_path: Path) -> subprocess.Popen[str]:
 def wait_until(true: object) -> None:
     import time
 
-    for _ in range(600):
+    for _ in range(1200):
         if true():  # type: ignore[operator]
             return
         time.sleep(0.1)
-    pytest.fail("waited a minute in vain")
+    pytest.fail("waited two minutes in vain")
 
 
 def worker_pids(place: Place) -> list[int]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import pickle
 import re
 import subprocess
@@ -13,9 +14,10 @@ import pytest
 
 import egotouch_sdk.jobs
 from egotouch_sdk.cli.main import build_parser
-from egotouch_sdk.errors import ConfigError
+from egotouch_sdk.errors import ConfigError, MissingExtraError
 from egotouch_sdk.jobs import Batch, Task, run_jobs
 from egotouch_sdk.jobs.attempt import attempt, pack, pack_order, unpack
+from egotouch_sdk.jobs.choice import open_runner
 from egotouch_sdk.jobs.progress import Progress
 from egotouch_sdk.jobs.runner import Outcome
 from egotouch_sdk.jobs.scratch import claim, is_shared, leftovers, scratch_path, sole_run, sweep
@@ -149,6 +151,14 @@ def test_progress_counts_only_what_this_run_did() -> None:
     assert Progress(10, 6, 2, 0, 7200.0).line("folds", "") == "6/10 folds: 2 new folds, 1 per hour, 4.0 h left"
     assert Progress(3, 3, 1, 0, 600.0).line("folds", "") == "3/3 folds: 1 new folds, 6 per hour, 0 s left"
     assert Progress(3, 0, 0, 0, 0.0).line("folds", "").endswith("0 s left")
+
+
+def test_without_ray_the_extra_is_named_and_nothing_stays(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "ray", None)
+    before = dict(os.environ)
+    with pytest.raises(MissingExtraError, match=r"egotouch-sdk\[cluster\]"):
+        open_runner(1, "local")
+    assert dict(os.environ) == before
 
 
 README = Path(egotouch_sdk.jobs.__file__).with_name("README.md").read_text(encoding="utf-8")
