@@ -29,8 +29,7 @@ def draw_outfit(rng: np.random.Generator, number: int, outdoors: bool, on_arm_m:
     stated = PARTICIPANTS[number]
     left: list[Item] = [ring for ring in stated.rings if ring.hand is Handedness.LEFT]
     right: list[Item] = [ring for ring in stated.rings if ring.hand is Handedness.RIGHT]
-    host = HandRig("left")
-    if stated.watch is not None and not covers(host, (stated.watch,), on_arm_m, MARGIN_M):
+    if stated.watch is not None and not covers((stated.watch,), on_arm_m, MARGIN_M):
         left.append(stated.watch)
     sleeved = rng.random() < SLEEVE_ODDS[outdoors]
     ends = rng.uniform(*_SLEEVE_END_M, 2)
