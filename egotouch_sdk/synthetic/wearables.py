@@ -97,7 +97,7 @@ def dress(rig: HandRig, skin: BakedSide, items: Sequence[Item], seed: int) -> Ba
 
 
 def covers(items: Sequence[Item], at_m: Array, margin_m: float) -> bool:
-    """True when a watch or sleeve of these comes within `margin_m` of a point of the arm, given in the wrist frame (3,), +z to the elbow."""
+    """True when a watch or sleeve comes within `margin_m` of a point of the arm, given in the wrist frame (3,), +z to the elbow."""
     z = float(at_m[2])
     return any(
         (isinstance(item, Sleeve) and z > item.end_m - margin_m)
