@@ -48,19 +48,3 @@ def has_axis(host: HandObservation) -> bool:
     """True when the axis wrist to middle MCP is long enough in the image to locate points by it."""
     axis = host.xy_px(HandJoint.MIDDLE_FINGER_MCP) - host.xy_px(HandJoint.WRIST)
     return hypot(float(axis[0]), float(axis[1])) >= MIN_AXIS_SHARE * palm_length_px(host)
-
-
-def host_frame_xy(host: HandObservation, tip_px: tuple[float, float]) -> tuple[float, float] | None:
-    """A fingertip in the host's own frame in the image: origin wrist, +y to the middle MCP, +x to the host's thumb side.
-
-    Both in lengths wrist to middle MCP. None when that axis is too foreshortened.
-    """
-    if not has_axis(host):
-        return None
-    wrist = host.xy_px(HandJoint.WRIST)
-    axis_x, axis_y = (float(v) for v in host.xy_px(HandJoint.MIDDLE_FINGER_MCP) - wrist)
-    thumb_x, thumb_y = (float(v) for v in host.xy_px(HandJoint.INDEX_FINGER_MCP) - host.xy_px(HandJoint.PINKY_MCP))
-    tip_x, tip_y = tip_px[0] - float(wrist[0]), tip_px[1] - float(wrist[1])
-    squared = axis_x * axis_x + axis_y * axis_y
-    thumb_side = 1.0 if axis_x * thumb_y - axis_y * thumb_x >= 0 else -1.0
-    return thumb_side * (axis_x * tip_y - axis_y * tip_x) / squared, (axis_x * tip_x + axis_y * tip_y) / squared

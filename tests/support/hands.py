@@ -12,7 +12,7 @@ from math import cos, radians, sin
 import numpy as np
 import numpy.typing as npt
 
-from egotouch_sdk.joints import FINGERS, Finger, Handedness
+from egotouch_sdk.joints import FINGERS, Finger, HandJoint, Handedness
 from egotouch_sdk.observation import HandObservation
 
 PALM_MM = 83.0
@@ -103,3 +103,17 @@ def palm_centre(host: HandObservation) -> tuple[float, float]:
     """The middle of the host's palm in the image."""
     x, y = host.landmarks_px[[0, 5, 17], :2].mean(axis=0)
     return float(x), float(y)
+
+
+def host_frame_xy(host: HandObservation, tip_px: tuple[float, float]) -> tuple[float, float]:
+    """A fingertip in the host's own frame in the image: origin wrist, +y to the middle MCP, +x to the host's thumb side.
+
+    Both in lengths wrist to middle MCP.
+    """
+    wrist = host.xy_px(HandJoint.WRIST)
+    axis_x, axis_y = (float(v) for v in host.xy_px(HandJoint.MIDDLE_FINGER_MCP) - wrist)
+    thumb_x, thumb_y = (float(v) for v in host.xy_px(HandJoint.INDEX_FINGER_MCP) - host.xy_px(HandJoint.PINKY_MCP))
+    tip_x, tip_y = tip_px[0] - float(wrist[0]), tip_px[1] - float(wrist[1])
+    squared = axis_x * axis_x + axis_y * axis_y
+    thumb_side = 1.0 if axis_x * thumb_y - axis_y * thumb_x >= 0 else -1.0
+    return thumb_side * (axis_x * tip_y - axis_y * tip_x) / squared, (axis_x * tip_x + axis_y * tip_y) / squared

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from egotouch_sdk import hand_geometry
-from egotouch_sdk.joints import HandJoint, Handedness
+from egotouch_sdk.joints import Handedness
 from egotouch_sdk.observation import HandObservation
 from tests.support.hands import make_hand
 
@@ -30,20 +30,7 @@ def test_a_hand_on_one_spot_still_has_a_scale() -> None:
     assert hand_geometry.px_per_mm(HandObservation(1, Handedness.LEFT, 1.0, np.zeros((21, 3)), np.zeros((21, 3)))) > 0
 
 
-@pytest.mark.parametrize("handedness", list(Handedness))
-@pytest.mark.parametrize("palm_up", [True, False])
-@pytest.mark.parametrize("pointing_deg", [90, 0, -135])
-def test_the_host_frame_has_x_to_the_thumb_and_y_to_the_fingers(handedness: Handedness, palm_up: bool, pointing_deg: float) -> None:
-    host = make_hand(handedness, palm_up=palm_up, pointing_deg=pointing_deg)
-    where = {joint: hand_geometry.host_frame_xy(host, tuple(host.xy_px(joint).tolist())) for joint in HandJoint}  # type: ignore[arg-type]
-    assert where[HandJoint.WRIST] == pytest.approx((0, 0), abs=1e-5)
-    assert where[HandJoint.MIDDLE_FINGER_MCP] == pytest.approx((0, 1), abs=1e-5)
-    thumb, pinky = where[HandJoint.THUMB_TIP], where[HandJoint.PINKY_TIP]
-    assert thumb is not None
-    assert pinky is not None
-    assert thumb[0] > 0.5
-    assert pinky[0] < -0.3
-
-
-def test_an_edge_on_host_has_no_frame() -> None:
-    assert hand_geometry.host_frame_xy(make_hand(tilt_deg=89), (10.0, 10.0)) is None
+@pytest.mark.parametrize("tilt_deg", [0, 60])
+def test_a_host_seen_from_above_has_an_axis_and_one_on_edge_has_none(tilt_deg: float) -> None:
+    assert hand_geometry.has_axis(make_hand(tilt_deg=tilt_deg))
+    assert not hand_geometry.has_axis(make_hand(tilt_deg=89))

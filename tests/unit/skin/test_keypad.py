@@ -9,11 +9,10 @@ import numpy as np
 import pytest
 
 from egotouch_sdk.errors import LayoutError
-from egotouch_sdk.hand_geometry import host_frame_xy
 from egotouch_sdk.joints import Handedness
 from egotouch_sdk.skin import Reading, SkinKeypad, reading_axes
 from egotouch_sdk.surface import Surface
-from tests.support.hands import make_hand
+from tests.support.hands import host_frame_xy, make_hand
 
 EVERY_LIMB = list(product(Surface, Handedness))
 HAND, FOREARM = (Surface.PALM, Surface.BACK_OF_HAND), (Surface.INNER_FOREARM, Surface.OUTER_FOREARM)
