@@ -58,8 +58,7 @@ class RayCluster:
                 ray.init(log_to_driver=False, logging_level="error", **options)
         except (OSError, RuntimeError, ValueError) as problem:
             self.close()
-            reason = str(problem).strip().splitlines()[0]
-            raise ConfigError(f"no Ray cluster answers at {address} ({reason})", hint="Start one: ray start --head") from problem
+            raise _no_cluster(address, problem) from problem
         self._attempt = ray.remote(num_cpus=cpus, num_gpus=gpus, max_retries=0)(attempt)
 
     def _local_options(self, cpus: int) -> dict[str, Any]:
@@ -120,6 +119,13 @@ def _knock(address: str) -> None:
     host, _, port = address.rpartition("/")[2].rpartition(":")
     if host and port.isdigit():
         socket.create_connection((host.strip("[]"), int(port)), _PATIENCE_S * 5).close()
+
+
+def _no_cluster(address: str, problem: Exception) -> ConfigError:
+    hint = "Start one: ray start --head"
+    if "InvalidAuthToken" in f"{problem} {problem.__cause__}":
+        hint = "It wants its token: set RAY_AUTH_MODE=token, and RAY_AUTH_TOKEN or the file ~/.ray/auth_token"
+    return ConfigError(f"no Ray cluster answers at {address} ({str(problem).strip().splitlines()[0]})", hint=hint)
 
 
 def _local_environment() -> dict[str, str]:
