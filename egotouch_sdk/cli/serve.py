@@ -46,7 +46,8 @@ EXAMPLES = """\
 NOTES = """
 SOURCE may also be:
   simulator   fingers played on the page /simulator.html
-  client      one client pushes ClientFrame messages (JPEG, up to 1 MiB and 3840x2160 px), with a ClientHands of the same
+  client      a headset or phone sends its own camera from the page /camera.html, or an app pushes ClientFrame messages
+              (JPEG, up to 1 MiB and 3840x2160 px), with a ClientHands of the same
               timestamp_ns for each frame where the headset tracks hands itself; the newest frame counts, older ones are dropped
 
 --publish sends each event as a TouchEvent to egotouch.v1.SESSION.SURFACE.TYPE, for example egotouch.v1.booth-3.palm.down; subscribe
@@ -56,6 +57,8 @@ EGOTOUCH_NATS_CREDENTIALS. While NATS is away nothing is kept beyond 250 ms; ope
 SIMULATOR = "simulator"
 CLIENT = "client"
 KEYPAD_PAGE = "keypad/"
+#: Sources that are played or sent by a page, and that page.
+SOURCE_PAGES = {SIMULATOR: "simulator.html", CLIENT: "camera.html"}
 DEFAULT_PORT = 8765
 #: What asyncio calls every interface, IPv4 and IPv6.
 ALL_INTERFACES = ""
@@ -223,7 +226,7 @@ def _introduce(options: argparse.Namespace, lan: Lan | None, server: EventServer
 
     scheme = "https" if lan else "http"
     hosts = (*lan.addresses, *lan.names[1:]) if lan else (server.settings.host,)
-    page = KEYPAD_PAGE if options.keypad else "simulator.html" if options.source == SIMULATOR else ""
+    page = KEYPAD_PAGE if options.keypad else SOURCE_PAGES.get(options.source, "")
     print(f"Touch events of {options.source}; Ctrl-C stops.")
     for host in hosts:
         url = page_url(scheme, host, server.port)

@@ -10,7 +10,7 @@ import { buildKeypad } from "./keypad.mjs";
 const WEB = join(dirname(fileURLToPath(import.meta.url)), "..");
 const SOURCE = join(WEB, "pages");
 const SERVED = join(WEB, "..", "..", "egotouch_sdk", "server", "page");
-const SCRIPTS = ["live_view", "simulator"];
+const SCRIPTS = ["live_view", "simulator", "camera"];
 const LIBRARY = "egotouch";
 
 /** The client is a file of its own, /egotouch.js, which pages share. */

@@ -37,15 +37,18 @@ function along({ base, deg, length }: Finger, share: number, sideways: number): 
   return [base[0] + sin * length * share + cos * sideways, base[1] + cos * length * share - sin * sideways];
 }
 
+/** Two sides that run straight into half a circle around the last point from which the end is as far as the sides are. */
 function aroundFinger(finger: Finger, from: number): Point[] {
-  const half = (share: number) => finger.halfBase + (finger.halfTip - finger.halfBase) * share;
-  const side = (share: number, sign: number) => along(finger, share, sign * half(share));
-  const tip = [-75, -45, -15, 15, 45, 75].map((deg) => {
+  const { halfBase, halfTip, length } = finger;
+  const centre = 1 - halfTip / length;
+  const side = (share: number, sign: number) => along(finger, share, sign * (halfBase + ((halfTip - halfBase) * share) / centre));
+  const tip = [-90, -54, -18, 18, 54, 90].map((deg) => {
     const turn = (deg * Math.PI) / 180;
-    return along(finger, 1 - (finger.halfTip * (1 - Math.cos(turn))) / finger.length, finger.halfTip * Math.sin(turn));
+    return along(finger, centre + (halfTip * Math.cos(turn)) / length, halfTip * Math.sin(turn));
   });
-  const up = [from, 0.5, 0.75].map((share) => side(share, -1));
-  return [...up, ...tip, ...[0.75, 0.5, from].map((share) => side(share, 1))];
+  const up = [from, 0.5, centre - 0.08].map((share) => side(share, -1));
+  const down = [centre - 0.08, 0.5, from].map((share) => side(share, 1));
+  return [...up, ...tip, ...down];
 }
 
 function web(left: Finger, right: Finger): Point {
@@ -103,18 +106,22 @@ function arc([x, y]: Point, radius: number): Point[] {
   return [-60, -20, 20, 60].map((deg): Point => [x + radius * Math.sin((deg * Math.PI) / 180), y - 4 + radius * Math.cos((deg * Math.PI) / 180)]);
 }
 
-/** A smooth path through points (Catmull-Rom), drawn with `place`, which turns millimetres into pixels. */
-export function smoothPath(points: readonly Point[], place: Place, closed: boolean): Path2D {
-  const path = new Path2D();
+/** A smooth path through points (Catmull-Rom) as an SVG path, drawn with `place`, which turns millimetres into the picture's units. */
+export function smoothPathData(points: readonly Point[], place: Place, closed: boolean): string {
   const at = (i: number) => place(...points[closed ? (i + points.length) % points.length : Math.min(Math.max(i, 0), points.length - 1)]!);
-  path.moveTo(...at(0));
+  const text = (...places: Point[]) => places.map(([x, y]) => `${x.toFixed(2)} ${y.toFixed(2)}`).join(" ");
+  let path = `M${text(at(0))}`;
   for (let i = 0; i < points.length - (closed ? 0 : 1); i += 1) {
     const [p0, p1, p2, p3]: [Point, Point, Point, Point] = [at(i - 1), at(i), at(i + 1), at(i + 2)];
     const control = (a: Point, b: Point, c: Point, sign: number): Point => [
       b[0] + (sign * (c[0] - a[0])) / 6, b[1] + (sign * (c[1] - a[1])) / 6,
     ];
-    path.bezierCurveTo(...control(p0, p1, p2, 1), ...control(p1, p2, p3, -1), ...p2);
+    path += `C${text(control(p0, p1, p2, 1), control(p1, p2, p3, -1), p2)}`;
   }
-  if (closed) path.closePath();
-  return path;
+  return closed ? `${path}Z` : path;
+}
+
+/** The same for a canvas. */
+export function smoothPath(points: readonly Point[], place: Place, closed: boolean): Path2D {
+  return new Path2D(smoothPathData(points, place, closed));
 }

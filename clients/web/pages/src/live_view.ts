@@ -13,7 +13,8 @@ import { showStatus } from "./status_bar.js";
 import { TouchMarks } from "./touch_marks.js";
 import { byId, FINGER_COLOURS, FINGERS, words } from "./vocabulary.js";
 
-const SIMULATOR = "simulator";
+/** Features of a server whose source is a page, and the links to that page. */
+const SOURCE_PAGES = { simulator: "to-simulator", push_frames: "to-camera" };
 const PLOT_EVERY_MS = 40;
 
 // What comes late is still shown: this page acts on nothing.
@@ -37,7 +38,7 @@ client.onBatch(({ events, sendMs, latencyMs, late }) => {
 });
 client.onWelcome(({ settings, features }) => {
   if (settings?.forceEnterN) force.level = { value: settings.forceEnterN, name: "onForce" };
-  byId("to-simulator").hidden = !features.includes(SIMULATOR);
+  for (const [feature, link] of Object.entries(SOURCE_PAGES)) byId(link).hidden = !features.includes(feature);
 });
 
 function show(event: TouchEvent, now: number): void {

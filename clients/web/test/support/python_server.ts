@@ -8,8 +8,9 @@ import { fileURLToPath } from "node:url";
 import type { EgoTouchClient, Finger, Handedness, Surface } from "../../src/index.js";
 import { FINGERS, HANDS, SURFACES } from "../../src/wire/enums.js";
 
-const ROOT = fileURLToPath(new URL("../../../../", import.meta.url));
+export const ROOT = fileURLToPath(new URL("../../../../", import.meta.url));
 const VENV_PYTHON = `${ROOT}.venv/bin/python`;
+export const PYTHON = process.env["EGOTOUCH_PYTHON"] ?? (existsSync(VENV_PYTHON) ? VENV_PYTHON : "python3");
 
 /** Nothing here takes long; what takes longer has failed. */
 export const PATIENCE_MS = 30_000;
@@ -34,10 +35,9 @@ export class PythonServer {
 
   /** Start, and wait for the address that it prints; the port stays the same over restarts. */
   async start(): Promise<void> {
-    const python = process.env["EGOTOUCH_PYTHON"] ?? (existsSync(VENV_PYTHON) ? VENV_PYTHON : "python3");
     // A loaded machine may hold the server up for longer than a camera may stall.
     const env = { ...process.env, EGOTOUCH_STATE__STALL_MS: "5000" };
-    const started = spawn(python, ["-m", "egotouch_sdk.cli.main", ...this.#command, "--port", this.#port], { cwd: ROOT, env, stdio: ["ignore", "pipe", "inherit"] });
+    const started = spawn(PYTHON, ["-m", "egotouch_sdk.cli.main", ...this.#command, "--port", this.#port], { cwd: ROOT, env, stdio: ["ignore", "pipe", "inherit"] });
     this.#process = started;
     for await (const line of createInterface({ input: started.stdout })) {
       const address = /http:\/\/[^/]*:(\d+)\//.exec(line);
