@@ -77,7 +77,7 @@ def make_round(path: Path, plan: RoundPlan, samples: int) -> int:
         rendered = render_round(plan, samples)
     except ImpossibleSceneError as problem:
         raise SourceError(f"participant {plan.participant}, round {plan.number}: {problem}", hint="Use another --seed") from problem
-    with tempfile.TemporaryDirectory(dir=path.parent, prefix=".round-") as folder:
+    with tempfile.TemporaryDirectory(dir=path.parent, prefix=f"{path.stem}.") as folder:
         write_round(Path(folder), rendered).replace(path)
     return plan.frames
 
