@@ -62,7 +62,7 @@ class Cluster:
     def begin(self, *makes: str) -> subprocess.Popen[str]:
         return subprocess.Popen(
             [sys.executable, str(self._script), str(self.out), str(self.diary), *makes],
-            cwd=ROOT, env={**os.environ, "PYTHONPATH": str(ROOT)}, start_new_session=True,
+            cwd=ROOT, env={**os.environ, "PYTHONPATH": str(ROOT), "RAY_memory_monitor_refresh_ms": "0"}, start_new_session=True,
             stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
         )  # fmt: skip
 
