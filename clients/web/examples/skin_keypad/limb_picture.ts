@@ -1,7 +1,7 @@
 /** The limb with its keys and fingers as SVG, turned the way its wearer sees it; its units are millimetres. */
 import type { Surface } from "../../src/events.js";
 import { toHostFrame, toView, type FingerLook, type Point, type SkinKeypad } from "../../src/skin/index.js";
-import { BACK_LINES, NAILS, OUTLINE, PALM_LINES, smoothPath } from "./limb_outline.js";
+import { BACK_LINES_MM, NAILS_MM, OUTLINE_MM, PALM_LINES_MM, smoothPathData } from "../../pages/src/hand_outline.js";
 import type { KeypadModel } from "./keypad_model.js";
 import { LETTERS } from "./words.js";
 
@@ -79,16 +79,16 @@ export class LimbPicture {
     const top = Math.min(corners[0][1], corners[1][1]);
     this.svg.setAttribute("viewBox", `${left} ${top} ${Math.abs(corners[0][0] - corners[1][0])} ${Math.abs(corners[0][1] - corners[1][1])}`);
     this.svg.dataset["reading"] = keypad.reading;
-    const place = (point: Point): Point => this.#place(point);
+    const place = (x: number, y: number): Point => this.#place([x, y]);
     const isBack = keypad.surface === "back_of_hand" || keypad.surface === "outer_forearm";
-    this.#outline = node("path", { class: "skin", fill: "url(#skin-fill)", d: smoothPath(OUTLINE, place, true) });
-    const lines = (isBack ? BACK_LINES : PALM_LINES).map((line) => node("path", { class: "line", d: smoothPath(line, place, false) }));
-    const nails = isBack ? NAILS.map((nail) => node("path", { class: "nail", d: smoothPath(nail, place, true) })) : [];
+    this.#outline = node("path", { class: "skin", fill: "url(#skin-fill)", d: smoothPathData(OUTLINE_MM, place, true) });
+    const lines = (isBack ? BACK_LINES_MM : PALM_LINES_MM).map((line) => node("path", { class: "line", d: smoothPathData(line, place, false) }));
+    const nails = isBack ? NAILS_MM.map((nail) => node("path", { class: "nail", d: smoothPathData(nail, place, true) })) : [];
     this.#keys = keypad.keys.map((key) => ({ key, group: keyElement(key.key, this.#place(key.centreMm), keypad.pitchMm - keypad.gapMm) }));
     this.#fingers = node("g", { class: "fingers" });
     const limb = node("g", { class: "limb", mask: "url(#fade)" }, this.#outline, ...lines, ...nails);
     const keys = node("g", { class: "keys" }, ...this.#keys.map(({ group }) => group));
-    const far = OUTLINE.some(([, y]) => y > y1) ? y1 : y1 + FADE_MM;
+    const far = OUTLINE_MM.some(([, y]) => y > y1) ? y1 : y1 + FADE_MM;
     const fading = fade(this.#place([0, y0]), this.#place([0, y0 + FADE_MM]), this.#place([0, far]));
     const defs = this.svg.querySelector("defs");
     this.svg.replaceChildren(...(defs ? [defs] : []), ...fading, limb, keys, this.#fingers);

@@ -2,7 +2,7 @@
 import type { Handedness, Surface } from "../../src/events.js";
 import { EgoTouchClient } from "../../src/index.js";
 import { layoutFromData } from "../../src/skin/index.js";
-import { startWithAccess } from "./access.js";
+import { startWithAccess } from "../../pages/src/access.js";
 import { KeypadModel } from "./keypad_model.js";
 import layoutData from "./layout.json" with { type: "json" };
 import { LimbPicture } from "./limb_picture.js";
