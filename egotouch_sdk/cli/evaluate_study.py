@@ -75,7 +75,7 @@ def _heading(study: Study, folds: Folds) -> tuple[Heading, list[Mapping[str, Any
     recipe, warnings = study.recipe, [SIMULATION]
     if len(study.files) < study.expected:
         warnings.append(f"Unfinished: {len(study.files)} of {study.expected} rounds are there.")
-    how = "each participant by a model of a fold that never saw it" if folds.are_held_out else "all participants by one model"
+    how = "each participant by a model of a fold that never saw it" if folds.are_held_out else "all participants by one model, which must know none of them"
     facts = (
         ("Study", f"{recipe.participants} simulated participants, {recipe.rounds} rounds each of {recipe.seconds_per_round:g} s"),
         ("Made with", f"seed {recipe.seed}, {recipe.fps:g} frames per second"),

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from egotouch_sdk.evaluation.alignment import aligned_confusion, runs
+from egotouch_sdk.evaluation.alignment import RADIUS, aligned_confusion, runs
 from egotouch_sdk.evaluation.confusion import Bools, Confusion, Matches
 from egotouch_sdk.evaluation.study_run import Answers
-from egotouch_sdk.evaluation.touches import TOLERANCES, Candidates, candidates, match_times, meetings
+from egotouch_sdk.evaluation.touches import TOLERANCES, Candidates, Run, candidates, match_times, meetings
 from egotouch_sdk.joints import Finger
 from egotouch_sdk.study_data import Hair, RoundMeta, StudyRound, TouchType
 from egotouch_sdk.surface import Surface
@@ -92,13 +92,15 @@ def _conditions(meta: RoundMeta) -> dict[str, str]:
 class RoundScore:
     """Scores of one round; every frame with a closed gate is left out of what is counted in frames.
 
-    `participant`, `name`, `conditions`, `is_hover` and `is_drag` are those of its `Truth`.
-    `frames` by (side, shift); `aligned` by side; `onsets`, `offsets` (matched events of the state machine) by (tolerance, shift).
+    `participant`, `name`, `conditions`, `is_hover` and `is_drag` are those of its `Truth`. `frames` by (side, shift); `aligned` by
+    side; `onsets`, `offsets` (matched events of the state machine) by (tolerance, shift).
     `touch`, `probability`, `median_probability`, `live`, `true_n`, `told_n`, `hover_mm` are (N,) over the open frames; `told_n` is
     the median's force. `onset_delay_ms` and `offset_delay_ms` (K,) are told minus true, of clicks; `peaks_n` (M, 2) are the true and
     told peak force of every true touch that was seen. `extra` counts told touches beyond the first that meet the same true touch,
-    `false_touches` those that meet none; `merged` true touches that share their told touch with another; `unseen` true touches
-    whose gate was closed throughout. `contact_s` is the time of true touches seen, `seconds` that of open frames.
+    `false_touches` those that meet none, `merged` true touches that share their told touch with another.
+    `unseen` true touches had a closed gate throughout, `cut` ones began in the last 4 frames, too late to be told; both count in no
+    other number of touches. Nor do onsets of touches that go on from before the round, and offsets in its last 4 frames.
+    `contact_s` is the time of true touches seen, `seconds` that of open frames.
     """
 
     participant: str
@@ -114,6 +116,7 @@ class RoundScore:
     merged: int
     false_touches: int
     unseen: int
+    cut: int
     contact_s: float
     seconds: float
     onsets: Mapping[tuple[int, int], Matches]
@@ -139,9 +142,14 @@ def score_round(truth: Truth, answers: Answers, down_probability: float) -> Roun
         "median": np.nan_to_num(answers.median_probability) >= down_probability,
         "live": answers.live,
     }
-    pairs, false = meetings(touch, answers.live, gate)
+    late = len(touch) - RADIUS
+    cut = [run for run in runs(touch) if run[0] > late and gate[slice(*run)].any()]
+    all_pairs, false = meetings(touch, answers.live, gate)
+    pairs = [pair for pair in all_pairs if pair.true not in cut]
     clicks = [(pair.true, pair.told[0]) for pair in pairs if pair.is_click]
     seen, told = [pair.true for pair in pairs], runs(answers.live)
+    begun, ended = [run for run in seen if run[0] > 0], [run for run in seen if run[1] <= late]
+    told_begun, told_ended = _answering(told, begun, [*cut, *seen]), _answering(told, ended, [*cut, *seen])
     frame_s = 1 / truth.fps
     return RoundScore(
         participant=truth.participant,
@@ -156,14 +164,17 @@ def score_round(truth: Truth, answers: Answers, down_probability: float) -> Roun
         extra=sum(max(len(pair.told) - 1, 0) for pair in pairs),
         merged=sum(len(pair.told) == 1 and not pair.is_click for pair in pairs),
         false_touches=len(false),
-        unseen=len(runs(touch)) - len(pairs),
+        unseen=len(runs(touch)) - len(all_pairs),
+        cut=len(cut),
         contact_s=frame_s * sum(stop - start for start, stop in seen),
         seconds=frame_s * int(gate.sum()),
-        onsets=_matches([run[0] for run in seen], [run[0] for run in told]),
-        offsets=_matches([run[1] for run in seen], [run[1] for run in told]),
-        candidates=candidates([run[0] for run in seen], answers.median_probability),
-        onset_delay_ms=np.array([(times_ns[b[0]] - times_ns[a[0]]) / 1e6 for a, b in clicks], np.float64),
-        offset_delay_ms=np.array([(_end_ns(times_ns, b[1]) - _end_ns(times_ns, a[1])) / 1e6 for a, b in clicks], np.float64),
+        onsets=_matches([run[0] for run in begun], [run[0] for run in told_begun]),
+        offsets=_matches([run[1] for run in ended], [run[1] for run in told_ended]),
+        candidates=candidates([run[0] for run in begun], answers.median_probability, [run[0] for run in [*cut, *seen] if run not in begun]),
+        onset_delay_ms=np.array([(times_ns[b[0]] - times_ns[a[0]]) / 1e6 for a, b in clicks if a in begun], np.float64),
+        offset_delay_ms=np.array(
+            [(times_ns[b[1]] - times_ns[a[1]]) / 1e6 for a, b in clicks if a in ended and b[1] < len(touch)], np.float64
+        ),
         peaks_n=_peaks(truth, answers, seen),
         touch=touch[gate],
         probability=answers.probability[gate],
@@ -186,9 +197,13 @@ def _matches(true: Sequence[int], told: Sequence[int]) -> dict[tuple[int, int], 
     return {(tolerance, shift): match_times(moved[shift], told, tolerance) for tolerance in TOLERANCES for shift in SHIFTS}
 
 
-def _end_ns(times_ns: npt.NDArray[np.int64], stop: int) -> int:
-    """Time of the first frame after a touch; at the end of the round that of the last frame."""
-    return int(times_ns[min(stop, len(times_ns) - 1)])
+def _answering(told: Sequence[Run], kept: Sequence[Run], true: Sequence[Run]) -> list[Run]:
+    """Told touches without those that meet true ones, but none of those whose edge is `kept`."""
+
+    def meets(run: Run, others: Sequence[Run]) -> bool:
+        return any(run[0] < other[1] and other[0] < run[1] for other in others)
+
+    return [run for run in told if meets(run, kept) or not meets(run, true)]
 
 
 def _peaks(truth: Truth, answers: Answers, seen: Sequence[tuple[int, int]]) -> Floats:

@@ -28,7 +28,8 @@ counts as error. "Truth one frame later" takes that delay out, as the paper did;
 Aligned: dynamic time warping of calls against truth within a hard band of 4 frames, solved exactly; pairs on the path are counted.
 
 A click is a true touch met by exactly one told touch that meets no other. Onsets and offsets are matched one to one within 0, 1, 2 or 4
-frames. Onset AP ranks the rises of the median's probability, without any threshold.
+frames. A touch that begins in the last 4 frames of a round counts in frames only; so do an onset before the round's first frame and an
+offset in its last 4. Onset AP ranks the rises of the median's probability, without any threshold.
 
 Force is told in newtons, in % of the 3.5 N range (the paper's figure is compared with this one) and relative to the true force.
 

@@ -76,10 +76,11 @@ class Candidates:
         return average_precision(self.hit[tolerance], self.score, self.true_onsets)
 
 
-def candidates(onsets: Sequence[int], probability: Floats) -> Candidates:
+def candidates(onsets: Sequence[int], probability: Floats, ignored: Sequence[int] = ()) -> Candidates:
     """Propose an onset wherever the touch probability (T,) rises most within 2 frames; nan where nothing was to be seen.
 
-    The surest candidate takes the nearest true onset within the tolerance that is still free; none is won twice.
+    The surest candidate takes the nearest true onset within the tolerance that is still free; none is won twice. Candidates within
+    4 frames of an `ignored` onset, one that cannot be judged, are dropped.
     """
     before = np.concatenate([[0.0], np.where(np.isnan(probability[:-1]), 0.0, probability[:-1])])
     rise = np.where(np.isnan(probability), 0.0, probability - before)
@@ -88,6 +89,7 @@ def candidates(onsets: Sequence[int], probability: Floats) -> Candidates:
     for frame in order:
         if all(abs(frame - other) > SUPPRESSION_FRAMES for other in kept):
             kept.append(frame)
+    kept = [frame for frame in kept if all(abs(frame - other) > TOLERANCES[-1] for other in ignored)]
     hit = {tolerance: _won(onsets, kept, tolerance) for tolerance in TOLERANCES}
     return Candidates(np.array([rise[frame] for frame in kept], np.float64), hit, len(onsets))
 

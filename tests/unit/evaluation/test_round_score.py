@@ -53,6 +53,27 @@ def test_a_false_touch_is_counted(model: TouchModel) -> None:
     assert score.frames["live", 0].fp == 5 and score.is_hover and not score.is_drag
 
 
+def test_a_touch_that_begins_as_the_round_ends_counts_in_frames_only(model: TouchModel) -> None:
+    score = scored(model, "....#####........###")
+    assert (score.touches, score.clicks, score.cut, score.false_touches) == (1, 1, 1, 0)
+    assert score.frames["raw", 0] == Confusion(tp=8, tn=12)
+    assert score.onsets[1, 0] == score.offsets[1, 0] == Matches(1, 0, 0) and (score.candidates.score > 0.5).sum() == 1
+
+
+def test_a_touch_that_goes_on_when_the_round_ends_has_an_onset_and_no_offset(model: TouchModel) -> None:
+    score = scored(model, "....#####........#######")
+    assert (score.touches, score.clicks, score.cut) == (2, 2, 0)
+    assert score.onsets[1, 0] == Matches(2, 0, 0) and score.offsets[1, 0] == Matches(1, 0, 0)
+    assert (len(score.onset_delay_ms), len(score.offset_delay_ms)) == (2, 1)
+
+
+def test_a_touch_that_goes_on_from_before_has_an_offset_and_no_onset(model: TouchModel) -> None:
+    score = scored(model, "#####......#####....")
+    assert (score.touches, score.clicks) == (2, 2)
+    assert score.onsets[1, 0] == Matches(1, 0, 0) and score.offsets[1, 0] == Matches(2, 0, 0)
+    assert (len(score.onset_delay_ms), len(score.offset_delay_ms), score.candidates.true_onsets) == (1, 2, 1)
+
+
 def test_closed_frames_are_not_counted(model: TouchModel) -> None:
     study = study_round("...####xx....")
     truth = Truth.of(study)
