@@ -8,6 +8,9 @@ const WEB = join(dirname(fileURLToPath(import.meta.url)), "..");
 const SOURCE = join(WEB, "examples", "skin_keypad");
 export const KEYPAD_FOLDER = join(WEB, "..", "..", "egotouch_sdk", "server", "page", "keypad");
 
+/** Modules that are files of their own; the client is the one that all served pages share. */
+const elsewhere = (filter, path) => ({ name: path, setup: ({ onResolve }) => onResolve({ filter }, () => ({ path, external: true })) });
+
 export async function buildKeypad(folder = KEYPAD_FOLDER) {
   await rm(folder, { recursive: true, force: true });
   await mkdir(folder, { recursive: true });
@@ -20,7 +23,7 @@ export async function buildKeypad(folder = KEYPAD_FOLDER) {
     outdir: folder,
     splitting: true,
     chunkNames: "[name]",
-    plugins: [{ name: "three", setup: ({ onResolve }) => onResolve({ filter: /^three$|three_parts\.js$/ }, () => ({ path: "./three.js", external: true })) }],
+    plugins: [elsewhere(/^three$|three_parts\.js$/, "./three.js"), elsewhere(/\/src\/(index|wire\/enums)\.js$/, "../egotouch.js")],
   });
   await build({ ...shared, entryPoints: [join(SOURCE, "keypad.css")], outdir: folder, loader: { ".css": "css" } });
   await copyFile(join(SOURCE, "index.html"), join(folder, "index.html"));

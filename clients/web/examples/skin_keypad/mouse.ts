@@ -42,7 +42,7 @@ export function connectMouse(picture: LimbPicture, model: KeypadModel, client: E
   });
   svg.addEventListener("pointermove", follow);
   svg.addEventListener("pointerup", (event) => {
-    finger.lift(performance.now());
+    finger.lift();
     if (event.pointerType === "touch") finger.leave(performance.now());
   });
   svg.addEventListener("pointerleave", () => finger.leave(performance.now()));

@@ -5,7 +5,7 @@ import { isInnerSide } from "../../src/surfaces.js";
 import { FINGERS, HANDS, SURFACES } from "../../src/wire/enums.js";
 import type { ClientBody } from "../../src/wire/messages.js";
 
-/** A press lasts at least this long, so that a short tap is seen by the simulated camera. */
+/** A press is played for at least this long, so that a short tap is seen by the simulated camera. */
 const LEAST_PRESS_MS = 110;
 /** A lifted finger stays above the skin this long, so that its touch ends with up instead of a lost hand. */
 const LINGER_MS = 400;
@@ -22,67 +22,82 @@ interface Played {
   readonly host: Handedness;
   readonly inner: boolean;
   readonly yawRad: number;
-  readonly pressedAt: number | null;
-  readonly liftAt: number;
-  readonly goneAt: number;
   /** 0..1 of a pen, null of what has none. */
   readonly pressure: number | null;
+}
+
+/** A press: when it began, when it was first sent (null before), and whether the finger has been lifted meanwhile. */
+interface Press {
+  readonly began: number;
+  readonly sent: number | null;
+  readonly isOver: boolean;
 }
 
 /** What the finger does now, as a message; pure but for the time that is passed in. */
 export class PlayedFinger {
   #played: Played | null = null;
+  #press: Press | null = null;
+  /** When the finger has left the picture; null while it is there. */
+  #left: number | null = null;
   #sentAt = -Infinity;
   #wasThere = false;
 
   /** The finger is over or on a place of the limb that carries the keypad; `pressure` is that of a pen. */
   move(place: Point, { host, surface, axes }: SkinKeypad, pressure: number | null): void {
-    const { pressedAt, liftAt } = this.#played ?? { pressedAt: null, liftAt: Infinity };
     // The other hand reaches over from below and from its own side.
     const [x, y] = toHostFrame(axes, host === "left" ? [-0.5, 0.87] : [0.5, 0.87]);
-    const yawRad = Math.atan2(x, y);
-    this.#played = { place, host, inner: isInnerSide(surface), yawRad, pressedAt, liftAt, goneAt: Infinity, pressure };
+    this.#played = { place, host, inner: isInnerSide(surface), yawRad: Math.atan2(x, y), pressure };
+    this.#left = null;
   }
 
   press(now: number): void {
-    if (this.#played) this.#played = { ...this.#played, pressedAt: now, liftAt: Infinity, goneAt: Infinity };
+    this.#press = { began: now, sent: null, isOver: false };
   }
 
-  lift(now: number): void {
-    const played = this.#played;
-    if (played?.pressedAt != null) this.#played = { ...played, liftAt: Math.max(now, played.pressedAt + LEAST_PRESS_MS) };
+  lift(): void {
+    if (this.#press) this.#press = { ...this.#press, isOver: true };
   }
 
   /** The finger has left the picture: it lifts, stays a moment above the skin, and is gone. */
   leave(now: number): void {
-    this.lift(now);
-    const played = this.#played;
-    if (played) this.#played = { ...played, goneAt: Math.max(now, played.liftAt === Infinity ? now : played.liftAt) + LINGER_MS };
+    this.lift();
+    this.#left ??= now;
   }
 
   /** Take the hand away at once, as a camera that loses it would. */
   vanish(): void {
-    this.#played = null;
+    this.#played = this.#press = this.#left = null;
   }
 
-  /** The message that is due at `now`; null when there is nothing to say. */
+  /** The message that is due at `now`; null when there is nothing to say. `changed` says that the finger has moved or pressed. */
   message(now: number, changed: boolean): ClientBody | null {
-    let played = this.#played;
-    if (played && now >= played.liftAt) played = { ...played, pressedAt: null, liftAt: Infinity };
-    if (played && now >= played.goneAt) played = null;
-    const edge = played !== this.#played;
-    this.#played = played;
+    const isLifted = this.#settle(now);
+    const played = this.#played;
     if (!played && !this.#wasThere) return null;
-    if (played && !changed && !edge && played.pressedAt === null && now - this.#sentAt < AGAIN_MS) return null;
+    if (played && !changed && !isLifted && !this.#press && now - this.#sentAt < AGAIN_MS) return null;
+    if (this.#press) this.#press = { ...this.#press, sent: this.#press.sent ?? now };
     this.#wasThere = played !== null;
     this.#sentAt = now;
     return { case: "simulated", value: { pointers: played ? [this.#pointer(played, now)] : [] } };
   }
 
-  #pointer({ place: [xMm, yMm], host, inner, yawRad, pressedAt, pressure }: Played, now: number): object {
+  /** End what is over; true when the finger has just been lifted. */
+  #settle(now: number): boolean {
+    const press = this.#press;
+    const isLifted = press !== null && press.isOver && press.sent !== null && now >= press.sent + LEAST_PRESS_MS;
+    if (isLifted) {
+      this.#press = null;
+      if (this.#left !== null) this.#left = now;
+    }
+    if (this.#left !== null && !this.#press && now >= this.#left + LINGER_MS) this.vanish();
+    return isLifted;
+  }
+
+  #pointer({ place: [xMm, yMm], host, inner, yawRad, pressure }: Played, now: number): object {
+    const press = this.#press;
     const onHand = yMm >= 0;
     const surface = inner ? (onHand ? "palm" : "inner_forearm") : onHand ? "back_of_hand" : "outer_forearm";
-    const share = pressedAt === null ? 0 : Math.min((now - pressedAt) / FORCE_N.withinMs, 1);
+    const share = press ? Math.min((now - press.began) / FORCE_N.withinMs, 1) : 0;
     const grown = FORCE_N.first + (FORCE_N.last - FORCE_N.first) * share;
     return {
       id: 1,
@@ -91,8 +106,8 @@ export class PlayedFinger {
       surface: SURFACES.number(surface),
       xMm,
       yMm,
-      hoverMm: pressedAt === null ? HOVER_MM : 0,
-      forceN: pressedAt === null ? 0 : pressure === null ? grown : Math.max(pressure * FULL_FORCE_N, 0.1),
+      hoverMm: press ? 0 : HOVER_MM,
+      forceN: !press ? 0 : pressure === null ? grown : Math.max(pressure * FULL_FORCE_N, 0.1),
       pitchRad: PITCH_RAD,
       yawRad,
     };
