@@ -59,7 +59,7 @@ def _add_study(commands: Any) -> None:
     study.add_argument("--participants", type=positive_int, default=15, help="the first of the 15 participants (default 15)")
     study.add_argument("--rounds", type=positive_int, default=36, help="rounds of each, a balanced choice of the 36 (default 36)")
     study.add_argument("--seconds", type=positive_float, default=1.2, help="length of a round (default 1.2)")
-    study.add_argument("--samples", type=positive_int, default=8, help="light paths per pixel (default 8)")
+    study.add_argument("--samples", type=positive_int, default=6, help="light paths per pixel (default 6)")
     study.add_argument("--seed", type=int, default=0)
     add_runner_options(study)
     study.set_defaults(handler=_study)

@@ -28,19 +28,21 @@ class ImpossibleSceneError(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Fineness:
-    """How far from the contact, and on the finger from its DIP joint, meshes are split: radii in metres, widest first.
+    """How far from the contact, and on the finger from its DIP or tip joint, meshes are split: radii in metres, widest first.
 
-    The last radius has 0.43 mm edges, the one before 0.87 mm and so on; at most four radii.
+    The last radius has 0.43 mm edges, the one before 0.87 mm and so on; at most four radii. The tip joint lies in the middle of the
+    last bone.
     """
 
     host_m: tuple[float, ...]
     touching_m: tuple[float, ...]
+    about_tip: bool = False
 
 
 #: For pictures of the whole hand, and for series with room for shifts.
 WIDE_DETAIL = Fineness((0.065, 0.036), (0.065, 0.034))
-#: For one patch of 40 mm whose finger stays within 10 mm: half the faces of `WIDE_DETAIL`.
-PATCH_DETAIL = Fineness((0.09, 0.044, 0.026), (0.075, 0.042, 0.028))
+#: For one patch of 40 mm whose finger stays within 10 mm: about a third of the faces of `WIDE_DETAIL`.
+PATCH_DETAIL = Fineness((0.10, 0.06, 0.034, 0.021), (0.08, 0.05, 0.027, 0.0175), about_tip=True)
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,13 +103,14 @@ class Stage:
         scale = identity.scale
         if detail:
             from_site = ((host.vertices - host.vertices[plan.site]) ** 2).sum(1) * scale**2
-            from_dip = ((touching.vertices - touching.bind[self._dip, :3, 3]) ** 2).sum(1)
+            joint = self._tip if fineness.about_tip else self._dip
+            from_joint = ((touching.vertices - touching.bind[joint, :3, 3]) ** 2).sum(1)
             same_side = host.normals @ host.normals[plan.site] > _FAR_SIDE
             on_finger = touching.finger_weight(plan.finger) > 0.3
             *_, tip_m = fineness.touching_m
             self._host_ids, self._host_faces = host.mixed_faces(*((from_site < r**2) & same_side for r in fineness.host_m))
             self._touch_ids, self._touch_faces = touching.mixed_faces(
-                *(from_dip < r**2 for r in fineness.touching_m[:-1]), (from_dip < tip_m**2) & on_finger
+                *(from_joint < r**2 for r in fineness.touching_m[:-1]), (from_joint < tip_m**2) & on_finger
             )
         else:
             self._host_ids, self._host_faces = np.arange(host.vertex_count_at[COARSE_LEVEL]), host.faces_at[COARSE_LEVEL]

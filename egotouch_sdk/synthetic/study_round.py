@@ -32,7 +32,7 @@ from egotouch_sdk.synthetic.study_plan import LIGHTS, RoundPlan
 from egotouch_sdk.synthetic.tracker_error import TrackerError, draw_tracker_error
 
 #: Light paths per pixel; the camera's own smoothing takes out what noise is left.
-SAMPLES = 8
+SAMPLES = 6
 _MAX_DRAWS = 1000
 #: Light of a nail and of pressed skin follows force with this time constant, seconds (0.2 to 1 s in reference measurements).
 _BLANCH_S = (0.2, 0.6)
@@ -41,9 +41,9 @@ _BLANCH_STEP_S = 1 / 300
 _MAX_FINGER_PX, _MAX_CAMERA_PX = 14.0, 6.0
 _NOISE, _DIM_NOISE, _DAYLIGHT_NOISE = (0.001, 0.006), 2.0, 0.6
 #: A camera brightens dark skin only in part: its level follows the tone's luma, relative to type III's, to this power (our choice).
-_METERING, _MIDDLE_LUMA, _SKIN_LEVEL = 0.4, 0.36, (0.06, 0.42)
-#: Bounds that keep 8 samples' noise from looking like hair, and the spread of tone from one round to the next.
-_MAX_OCCLUSION, _MIN_SAMPLE_BLUR_PX, _TONE_SPREAD = 2.4, 1.1, 0.04
+_METERING, _MIDDLE_LUMA, _SKIN_LEVEL = 0.55, 0.36, (0.05, 0.42)
+#: Bounds that keep the noise of few samples from looking like blotches and hair, and the spread of tone from one round to the next.
+_MAX_OCCLUSION, _MIN_SAMPLE_BLUR_PX, _TONE_SPREAD = 1.7, 1.5, 0.04
 
 
 @dataclass(frozen=True, slots=True)
@@ -152,7 +152,7 @@ def _draw_stage(rng: np.random.Generator, plan: RoundPlan, level: int) -> Stage:
 def _draw_camera(rng: np.random.Generator, plan: RoundPlan, tone: tuple[float, float, float]) -> CameraSettings:
     """One camera for a round: a draw of the training camera without its tracker error and motion, lit as the round is.
 
-    The participant's skin keeps its tone, the camera meters half-way towards it, and only palms have folds.
+    The participant's skin keeps its tone, the camera meters half-way towards it; no painted folds and nothing stuck to the finger.
     """
     mix = LIGHTS[plan.light].mix
     drawn = draw_settings(rng)
@@ -165,7 +165,7 @@ def _draw_camera(rng: np.random.Generator, plan: RoundPlan, tone: tuple[float, f
         light_gains=(weights[:, None] * np.exp(np.stack([warmth, tint, -warmth], 1))).astype(np.float32),
         occlusion_power=min(drawn.occlusion_power, _MAX_OCCLUSION),
         sample_blur_px=max(drawn.sample_blur_px, _MIN_SAMPLE_BLUR_PX),
-        folds=drawn.folds if plan.place == "palm" else drawn.folds[:0],
+        folds=drawn.folds[:0],
         tone_power=float(np.exp(rng.normal(0, _TONE_SPREAD))),
         skin_level=float(np.clip(drawn.skin_level * metered, *_SKIN_LEVEL)),
         shift_px=(0.0, 0.0),
@@ -212,19 +212,16 @@ def _camera(scene: _Scene, touch: Touch, k: int) -> Camera:
 
 
 def _settings_at(scene: _Scene, camera: Camera, time_s: float, scale: float) -> CameraSettings:
-    """The round's camera at one time: smears from the true motion during the exposure, folds that stay on the skin."""
+    """The round's camera at one time, with the smears of the true motion during the exposure."""
     stage, half_s = scene.stage, scene.plan.exposure_s / 2
     ends = scene.motion.at([time_s - half_s, time_s + half_s])
     frame = np.stack([stage.heading, np.cross(stage.normal, stage.heading), stage.normal], 1)
     height_mm = ends.hover_mm - 1e3 * np.array([stage.plan.tissue.sink_m(float(f)) if f > 0 else 0.0 for f in ends.force_n])
     points = stage.contact + np.column_stack([ends.at_mm, height_mm]) @ frame.T * 1e-3
-    seen = camera.project(np.vstack([points, stage.contact]))[:, :2]
+    seen = camera.project(points)[:, :2]
     head_mm = np.diff(scene.head.at([time_s - half_s, time_s + half_s]), axis=0)[0]
-    folds = scene.settings.folds.copy()
-    folds[:, :6] += np.tile(seen[2] - (PATCH_PX - 1) / 2, 3).astype(np.float32)
     return replace(
         scene.settings,
-        folds=folds,
         finger_motion_px=_bounded(seen[1] - seen[0], _MAX_FINGER_PX),
         camera_motion_px=_bounded(head_mm * [1, -1] * PATCH_PX_PER_MM * scale, _MAX_CAMERA_PX),
     )
