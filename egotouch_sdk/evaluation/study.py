@@ -9,7 +9,8 @@ from pathlib import Path
 
 from egotouch_sdk.config import StateConfig
 from egotouch_sdk.evaluation.folds import Folds
-from egotouch_sdk.evaluation.round_score import RoundScore, Truth, score_round
+from egotouch_sdk.evaluation.round_score import RoundScore, score_round
+from egotouch_sdk.evaluation.round_truth import Truth
 from egotouch_sdk.evaluation.study_run import answer
 from egotouch_sdk.study_data import Study, read_round
 from egotouch_sdk.touch import TouchModel

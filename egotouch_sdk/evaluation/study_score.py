@@ -11,7 +11,8 @@ import numpy as np
 
 from egotouch_sdk.evaluation.confusion import Confusion, Matches, share
 from egotouch_sdk.evaluation.metrics import auroc, calibration_error, force_scores
-from egotouch_sdk.evaluation.round_score import HARD_N, ORDER, SHIFTS, SIDES, RoundScore
+from egotouch_sdk.evaluation.round_score import HARD_N, SHIFTS, SIDES, RoundScore
+from egotouch_sdk.evaluation.round_truth import ORDER
 from egotouch_sdk.evaluation.touches import TOLERANCES, Candidates, average_precision
 
 Figures = dict[str, float]

@@ -12,7 +12,8 @@ import numpy as np
 from egotouch_sdk.errors import MissingExtraError, SourceError
 from egotouch_sdk.evaluation.bayes import BayesFactor, bayes_factor
 from egotouch_sdk.evaluation.bootstrap import Interval, interval_of_mean
-from egotouch_sdk.evaluation.round_score import BETWEEN_PARTICIPANTS, RoundScore
+from egotouch_sdk.evaluation.round_score import RoundScore
+from egotouch_sdk.evaluation.round_truth import BETWEEN_PARTICIPANTS
 from egotouch_sdk.evaluation.study_score import Figures, Group, Spread, by_participant, figures, frame_figures, groups, worst
 
 Curve = tuple[tuple[float, float], ...]

@@ -9,7 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from egotouch_sdk.config import StateConfig
-from egotouch_sdk.evaluation.round_score import SHIFTS, SIDES, RoundScore, Truth, score_round
+from egotouch_sdk.evaluation.round_score import SHIFTS, SIDES, RoundScore, score_round
+from egotouch_sdk.evaluation.round_truth import Truth
 from egotouch_sdk.evaluation.study_run import follow
 from egotouch_sdk.evaluation.study_score import figures, frame_figures
 from egotouch_sdk.evaluation.summary import summarise

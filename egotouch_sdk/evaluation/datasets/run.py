@@ -11,7 +11,8 @@ from egotouch_sdk.config import TouchConfig
 from egotouch_sdk.errors import SourceError
 from egotouch_sdk.evaluation.datasets.recording import GivenHands, LabelledRecording
 from egotouch_sdk.evaluation.false_touches import nobody
-from egotouch_sdk.evaluation.round_score import RoundScore, Truth, score_round
+from egotouch_sdk.evaluation.round_score import RoundScore, score_round
+from egotouch_sdk.evaluation.round_truth import Truth
 from egotouch_sdk.evaluation.study_run import Answers, follow
 from egotouch_sdk.frame import Frame
 from egotouch_sdk.frame_result import FrameResult

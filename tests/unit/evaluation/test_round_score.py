@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from egotouch_sdk.evaluation.confusion import Confusion, Matches
-from egotouch_sdk.evaluation.round_score import RoundScore, Truth, score_round
+from egotouch_sdk.evaluation.round_score import RoundScore, score_round
+from egotouch_sdk.evaluation.round_truth import Truth
 from egotouch_sdk.evaluation.study_run import answer
 from egotouch_sdk.joints import Finger
 from egotouch_sdk.study_data import TouchType

@@ -8,7 +8,8 @@ import pytest
 from egotouch_sdk.errors import SourceError
 from egotouch_sdk.evaluation import wording
 from egotouch_sdk.evaluation.document import to_html, to_markdown
-from egotouch_sdk.evaluation.round_score import RoundScore, Truth, score_round
+from egotouch_sdk.evaluation.round_score import RoundScore, score_round
+from egotouch_sdk.evaluation.round_truth import Truth
 from egotouch_sdk.evaluation.study_report import Heading, build_report
 from egotouch_sdk.evaluation.study_run import answer
 from egotouch_sdk.evaluation.study_score import figures

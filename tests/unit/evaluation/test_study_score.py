@@ -8,7 +8,8 @@ from statistics import fmean, stdev
 import numpy as np
 import pytest
 
-from egotouch_sdk.evaluation.round_score import RoundScore, Truth, score_round
+from egotouch_sdk.evaluation.round_score import RoundScore, score_round
+from egotouch_sdk.evaluation.round_truth import Truth
 from egotouch_sdk.evaluation.study_run import answer
 from egotouch_sdk.evaluation.study_score import Spread, by_participant, figures, frame_figures, groups, height_names, worst
 from egotouch_sdk.study_data import TouchType
