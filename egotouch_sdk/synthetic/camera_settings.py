@@ -100,7 +100,7 @@ def draw_settings(rng: np.random.Generator) -> CameraSettings:
         turn_rad=_bounded_normal(rng, MAX_TURN_RAD / 2, MAX_TURN_RAD),
         scale=float(np.clip(exp(rng.normal(0.03, 0.16)), *SCALE_RANGE)),
         native_px=_native_px(rng),
-        finger_motion_px=_motion(rng, share=0.3, longest_px=14.0),
+        finger_motion_px=_motion(rng, share=0.4, longest_px=16.0),
         camera_motion_px=_motion(rng, share=0.15, longest_px=6.0),
         optical_blur_px=float(rng.uniform(0.4, 2.0)),
         skin_level=exp(rng.uniform(log(0.10), log(0.38))),

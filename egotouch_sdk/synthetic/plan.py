@@ -45,15 +45,15 @@ class ScenePlan:
 
 
 def sites(rig: HandRig, place: str) -> Indices:
-    """Vertices of the receiving rig (left hand, level 1) that belong to `place`."""
+    """Vertices of the receiving rig (left hand, level 1) that belong to `place`, out to the rounded edges of the hand."""
     n = rig.vertex_count_at[_LEVEL_OF_SITES]
     local = rig.wrist_coords[:n]
     dorsal = (rig.normals[:n] @ rig.bind[0, :3, :3])[:, 1]
-    on_hand = (np.abs(local[:, 0]) < 0.034) & (local[:, 2] < -0.012) & (local[:, 2] > -0.088)
+    on_hand = (np.abs(local[:, 0]) < 0.046) & (local[:, 2] < 0.004) & (local[:, 2] > -0.096)
     on_arm = (local[:, 2] > 0.03) & (local[:, 2] < 0.17)
     mask = {
-        "palm": on_hand & (dorsal < -0.7),
-        "back_of_hand": on_hand & (dorsal > 0.8),
+        "palm": on_hand & (dorsal < -0.45),
+        "back_of_hand": on_hand & (dorsal > 0.65),
         "inner_forearm": on_arm & (dorsal < -0.7),
         "outer_forearm": on_arm & (dorsal > 0.75),
     }[place]

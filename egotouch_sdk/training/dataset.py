@@ -16,7 +16,8 @@ from torch.utils.data import Dataset, Sampler
 
 from egotouch_sdk.patches import HOST_UNKNOWN, normalise
 from egotouch_sdk.synthetic.air import in_the_air
-from egotouch_sdk.synthetic.camera import photograph_randomly
+from egotouch_sdk.synthetic.camera import photograph
+from egotouch_sdk.synthetic.camera_settings import draw_settings
 from egotouch_sdk.training.shards import HOVER_MAX_MM, PatchLabel, RenderedPatch
 
 #: Share of training samples whose host place is withheld, so that the model also works when the host is unknown.
@@ -25,6 +26,8 @@ HOST_UNKNOWN_SHARE = 0.5
 POLAR_JITTER = (0.05, 0.06)
 #: Share of hovers whose surroundings are replaced by clutter, so that a hand before anything but skin is no touch (our choice).
 AIR_SHARE = 0.08
+#: Share of touches that may be drags, and how far these move during an exposure relative to a finger in the air (our choice).
+DRAG_SHARE, DRAG_MOTION = 0.35, 0.35
 #: Share of mirrored training samples, their theta negated.
 FLIP_SHARE = 0.5
 
@@ -42,7 +45,10 @@ class Sample(NamedTuple):
 def view(rendered: RenderedPatch, rng: np.random.Generator) -> tuple[npt.NDArray[np.uint8], tuple[float, float]]:
     """One camera picture, uint8 (100, 100, 3) RGB, with its (r_palms, theta_rad)."""
     label = rendered.label
-    image = photograph_randomly(rendered.layers, rng)
+    settings = draw_settings(rng)
+    if label.touch:
+        settings = replace(settings, finger_motion_px=_motion_on_skin(settings.finger_motion_px, rng))
+    image = photograph(rendered.layers, settings, rng)
     r_palms = label.r_palms * float(np.exp(rng.normal(0, POLAR_JITTER[0])))
     theta_rad = label.theta_rad + float(rng.normal(0, POLAR_JITTER[1]))
     if rng.random() < FLIP_SHARE:
@@ -50,6 +56,12 @@ def view(rendered: RenderedPatch, rng: np.random.Generator) -> tuple[npt.NDArray
     if rng.random() < HOST_UNKNOWN_SHARE:
         return image, HOST_UNKNOWN
     return image, (r_palms, (theta_rad + pi) % (2 * pi) - pi)
+
+
+def _motion_on_skin(path_px: tuple[float, float], rng: np.random.Generator) -> tuple[float, float]:
+    """A pressing finger is held by the skin: it smears over it only while it drags, and less far than one that flies."""
+    share = DRAG_MOTION if rng.random() < DRAG_SHARE else 0.0
+    return path_px[0] * share, path_px[1] * share
 
 
 class PatchDataset(Dataset[Sample]):

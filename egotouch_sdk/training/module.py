@@ -31,7 +31,7 @@ class TouchModule(lightning.LightningModule):
         super().__init__()
         self.recipe = recipe
         self.touch_weight = (1 - touch_share) / touch_share
-        self.network = TouchNetwork(recipe.drop_path, recipe.dropout).use_fast_layout()
+        self.network = TouchNetwork(recipe.drop_path, recipe.dropout, recipe.mirrored).use_fast_layout()
         self.hover_head = nn.Linear(HIDDEN, 1)
         self.sigma_head = nn.Linear(HIDDEN, 1)
         self.average = AveragedModel(self.network, multi_avg_fn=get_ema_multi_avg_fn(recipe.average_decay), use_buffers=True)

@@ -26,12 +26,14 @@ class TouchNetwork(nn.Module):
 
     `patch` (N, 3, 100, 100) float32, normalised by `egotouch_sdk.patches.normalise`; `polar` (N, 2) = (r_palms, theta_rad).
     Returns `touch_logit` (N,) and `force_n` (N,) in newtons: unbounded while training, clamped to 0..3.5 in evaluation mode.
-    A touch has no handedness: in evaluation mode the outputs are the mean over the patch and its mirror image (theta negated).
+    A touch has no handedness: with `mirrored`, in evaluation mode, the outputs are the mean over the patch and its mirror image (theta
+    negated), at twice the cost.
     `drop_path` is the largest share of skipped residuals, `dropout` the share of dropped features, both in training only.
     """
 
-    def __init__(self, drop_path: float = 0.0, dropout: float = 0.0) -> None:
+    def __init__(self, drop_path: float = 0.0, dropout: float = 0.0, mirrored: bool = False) -> None:
         super().__init__()
+        self.mirrored = mirrored
         rates = iter(torch.linspace(0, drop_path, sum(STAGE_DEPTHS)).tolist())
         layers: list[nn.Module] = [stem()]
         for stage, (depth, width) in enumerate(zip(STAGE_DEPTHS, STAGE_WIDTHS, strict=True)):
@@ -61,7 +63,7 @@ class TouchNetwork(nn.Module):
         return logit, force_n if self.training else force_n.clamp(0.0, FORCE_MAX_N)
 
     def forward(self, patch: Tensor, polar: Tensor) -> tuple[Tensor, Tensor]:
-        if self.training:
+        if self.training or not self.mirrored:
             return self.decide(self.embed(patch, polar))
         mirrored = polar * polar.new_tensor([1.0, -1.0])
         logit, force_n = self.decide(self.embed(torch.cat([patch, patch.flip(3)]), torch.cat([polar, mirrored])))

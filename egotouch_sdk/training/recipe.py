@@ -20,6 +20,7 @@ class Recipe:
     `picture_px` below 100 shrinks the pictures: 64 is 2.4 times faster and good for a first stage to start the real run from.
     `label_smoothing` moves targets towards one half. `hover_weight` weighs an auxiliary hover-height output, dropped on export,
     `sigma_weight` the standard error of the force, which learns from the network's errors and does not move them.
+    `mirrored` ships the mean over a patch and its mirror image.
     `held_out_share` of the patches, whole participants, choose the threshold and never train.
     """
 
@@ -36,6 +37,7 @@ class Recipe:
     drop_path: float = 0.05
     dropout: float = 0.1
     average_decay: float = 0.995
+    mirrored: bool = False
     held_out_share: float = 0.12
     held_out_views: int = 2
     seed: int = 1

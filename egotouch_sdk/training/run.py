@@ -97,9 +97,15 @@ def fit(module: TouchModule, train_patches: list[RenderedPatch], validation: Sam
     recipe = module.recipe
     order = SeededOrder(len(train_patches), recipe.seed, finger_weights([patch.label for patch in train_patches]))
     batches = DataLoader(
-        PatchDataset(train_patches, AIR_SHARE), recipe.batch, sampler=order, collate_fn=collate, num_workers=machine.workers,
-        drop_last=len(train_patches) >= 2 * recipe.batch, persistent_workers=False, prefetch_factor=3 if machine.workers else None,
-    )  # fmt: skip
+        PatchDataset(train_patches, AIR_SHARE),
+        recipe.batch,
+        sampler=order,
+        collate_fn=collate,
+        num_workers=machine.workers,
+        drop_last=len(train_patches) >= 2 * recipe.batch,
+        persistent_workers=machine.workers > 0,
+        prefetch_factor=3 if machine.workers else None,
+    )
     trainer = lightning.Trainer(
         accelerator="auto",
         devices=1,
@@ -129,6 +135,8 @@ def load_weights(module: TouchModule, checkpoint: Path) -> None:
     averaged = {k.removeprefix("average.module."): v for k, v in state.items() if k.startswith("average.module.")}
     module.network.load_state_dict(averaged)
     module.hover_head.load_state_dict({k.removeprefix("hover_head."): v for k, v in state.items() if k.startswith("hover_head.")})
+    if "sigma_head.weight" in state:
+        module.sigma_head.load_state_dict({k.removeprefix("sigma_head."): v for k, v in state.items() if k.startswith("sigma_head.")})
     module.average.module.load_state_dict(averaged)
 
 
