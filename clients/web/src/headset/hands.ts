@@ -22,9 +22,15 @@ export interface Intrinsics {
   readonly cyPx: number;
 }
 
-/** What this needs of an `XRFrame` and its input sources. */
+/** What this needs of an `XRFrame`; spelled out, so that apps without WebXR's types can use this module. */
 export interface HandJoints {
-  getJointPose?: XRFrame["getJointPose"];
+  getJointPose?(joint: object, baseSpace: object): { readonly transform: { readonly position: { readonly x: number; readonly y: number; readonly z: number } } } | undefined;
+}
+
+/** What this needs of an `XRInputSource`. */
+export interface TrackedHand {
+  readonly handedness: Handedness | "none";
+  readonly hand?: { values(): Iterable<object> } | null | undefined;
 }
 
 const WEBXR_JOINTS = 25;
@@ -33,7 +39,7 @@ const MM_PER_M = 1000;
 const NEAREST_MM = 10;
 
 /** The tracked hands of this frame as the camera at `cameraSpace` (WebXR's axes) sees them; without those that are not wholly in front of it. */
-export function readXRHands(frame: HandJoints, sources: Iterable<XRInputSource>, cameraSpace: XRSpace, camera: Intrinsics): PushedHand[] {
+export function readXRHands(frame: HandJoints, sources: Iterable<TrackedHand>, cameraSpace: object, camera: Intrinsics): PushedHand[] {
   const hands: PushedHand[] = [];
   for (const { hand, handedness } of sources) {
     if (!hand || handedness === "none" || hands.some((other) => other.handedness === handedness)) continue;
