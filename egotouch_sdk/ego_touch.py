@@ -146,14 +146,16 @@ class EgoTouch(Listeners):
             self._shut_down()
         self._raise_failure()
 
-    def events(self, types: str | Iterable[str] | None = None, *, queue: int = 256, overflow: str = "coalesce") -> EventStream:
-        """Events for `async for`, of all `types` or of those named; the first one asked for starts the source when nothing else has.
+    def events(self, *types: str | Iterable[str], queue: int = 256, overflow: str = "coalesce") -> EventStream:
+        """Events for `async for`, of all types or of those named, one by one or as a collection; the first one asked for starts the
+        source when nothing else has.
 
         Every stream sees all events from when it was made, whatever listeners consume. `queue` events may wait for it; beyond that
         `overflow` says what happens: "coalesce", "drop_oldest" or "raise" (see `Overflow`). Capture never waits for a stream.
         Raises `ConfigError` for an unknown type or overflow.
         """
-        stream = EventStream(types, queue, overflow, self._start_for_stream)
+        names = [name for given in types for name in ((given,) if isinstance(given, str) else given)]
+        stream = EventStream(names if types else None, queue, overflow, self._start_for_stream)
         self._streams.add(stream)
         return stream
 

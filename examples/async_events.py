@@ -18,7 +18,7 @@ async def count_clicks(et: EgoTouch) -> None:
 
 
 async def follow(et: EgoTouch) -> None:
-    async for event in et.events({"down", "move"}, queue=8):  # a slow consumer gets merged moves, never a lost down
+    async for event in et.events("down", "move", queue=8):  # a slow consumer gets merged moves, never a lost down
         print(f"({event.x_mm:5.1f}, {event.y_mm:5.1f}) mm  pitch {event.pitch_deg:3.0f}  yaw {event.yaw_deg:4.0f} degrees")
 
 

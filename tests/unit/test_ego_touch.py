@@ -6,6 +6,7 @@ import asyncio
 import signal
 import threading
 import weakref
+from collections.abc import Collection
 
 import pytest
 
@@ -266,12 +267,12 @@ def test_several_asynchronous_consumers_see_everything() -> None:
     finger.tap()
     finger.end()
 
-    async def collect(et: EgoTouch, *types: str) -> list[str]:
-        return [event.type.value async for event in et.events(types)]
+    async def collect(et: EgoTouch, *types: str | Collection[str]) -> list[str]:
+        return [event.type.value async for event in et.events(*types)]
 
     async def consume() -> list[list[str]]:
         async with EgoTouch(finger, realtime=False) as et:
-            return await asyncio.gather(collect(et, "down", "up", "click"), collect(et, "hover_enter", "hover_exit"))
+            return await asyncio.gather(collect(et, "down", "up", "click"), collect(et, {"hover_enter", "hover_exit"}))
 
     assert asyncio.run(consume()) == [["down", "up", "click"], ["hover_enter", "hover_exit"]]
 
