@@ -30,7 +30,8 @@ class ImpossibleSceneError(Exception):
 class Fineness:
     """How far from the contact, and on the finger from its DIP or tip joint, meshes are split: radii in metres, widest first.
 
-    The last radius has 0.43 mm edges, the one before 0.87 mm and so on; at most four radii. The tip joint lies in the middle of the
+    The last radius gets the rig's finest edges (0.43 mm at level 4), the one before twice those, and so on; a rig of fewer levels leaves
+    out the widest. The tip joint lies in the middle of the
     last bone.
     """
 
@@ -108,9 +109,9 @@ class Stage:
             same_side = host.normals @ host.normals[plan.site] > _FAR_SIDE
             on_finger = touching.finger_weight(plan.finger) > 0.3
             *_, tip_m = fineness.touching_m
-            self._host_ids, self._host_faces = host.mixed_faces(*((from_site < r**2) & same_side for r in fineness.host_m))
+            self._host_ids, self._host_faces = host.mixed_faces(*((from_site < r**2) & same_side for r in fineness.host_m[-host.level :]))
             self._touch_ids, self._touch_faces = touching.mixed_faces(
-                *(from_joint < r**2 for r in fineness.touching_m[:-1]), (from_joint < tip_m**2) & on_finger
+                *(from_joint < r**2 for r in fineness.touching_m[-touching.level : -1]), (from_joint < tip_m**2) & on_finger
             )
         else:
             self._host_ids, self._host_faces = np.arange(host.vertex_count_at[COARSE_LEVEL]), host.faces_at[COARSE_LEVEL]
