@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from egotouch_sdk.cli.options import Subparsers, add_command, positive_int
+from egotouch_sdk.cli.options import Subparsers, add_command, add_ray_option, positive_int
 from egotouch_sdk.cli.output import Progress, print_json
 from egotouch_sdk.errors import ConfigError
 
 if TYPE_CHECKING:
     from egotouch_sdk.evaluation.folds import Folds
+    from egotouch_sdk.evaluation.round_score import RoundScore
+    from egotouch_sdk.evaluation.study import ParticipantTask
     from egotouch_sdk.evaluation.study_report import Heading
     from egotouch_sdk.evaluation.summary import Summary
     from egotouch_sdk.study_data import Study
@@ -21,6 +24,7 @@ EXAMPLES = """\
   egotouch evaluate study data/study                                     the shipped model, the main figures on the terminal
   egotouch evaluate study data/study --report out/study.html             everything, with plots, in one file
   egotouch evaluate study data/study --folds folds.json --report out/study.md     each participant by a model that never saw it
+  egotouch evaluate study data/study --jobs 8                            eight participants at a time; or --ray ADDRESS
 """
 #: Figures on the terminal; the report has all.
 SHOWN = (
@@ -37,6 +41,8 @@ def add_parser(kinds: Subparsers) -> None:
     parser.add_argument("--model", type=Path, metavar="FILE", help="touch model .onnx with its .json (default: the shipped one)")
     parser.add_argument("--folds", type=Path, metavar="FILE", help="JSON: which model scores which participants, one that never saw them")
     parser.add_argument("--threads", type=positive_int, default=1, metavar="N", help="threads for the touch network (default 1)")
+    parser.add_argument("--jobs", type=positive_int, default=1, metavar="N", help="participants at a time on this machine (default 1)")
+    add_ray_option(parser)
     add_report_options(parser)
     parser.set_defaults(handler=evaluate_study)
 
@@ -59,13 +65,25 @@ def evaluate_study(options: argparse.Namespace) -> int:
     check_report(options.report)
     study = open_study(options.folder)
     folds = read_folds(options.folds) if options.folds else Folds({}, options.model)
-    progress = Progress(len(study.files), always=True, unit="rounds")
-    scores = score_study(tasks(study, folds, options.threads), done=lambda _: progress.step())
-    progress.clear()
+    work = tasks(study, folds, options.threads)
+    if options.ray or options.jobs > 1:
+        scores = _score_on_workers(work, options)
+    else:
+        progress = Progress(len(study.files), always=True, unit="rounds")
+        scores = score_study(work, done=lambda _: progress.step())
+        progress.clear()
     heading, models = _heading(study, folds)
     summary = summarise(scores)
     tell(options, heading, summary, {"study": str(options.folder), "models": models, "held_out_by_folds": folds.are_held_out})
     return 0
+
+
+def _score_on_workers(work: Sequence[ParticipantTask], options: argparse.Namespace) -> list[RoundScore]:
+    from egotouch_sdk.evaluation.study_jobs import score_study_on
+    from egotouch_sdk.jobs.choice import open_runner
+
+    runner = open_runner(options.jobs, options.ray, options.threads)
+    return score_study_on(runner, work, lambda line: print(line, file=sys.stderr, flush=True))
 
 
 def _heading(study: Study, folds: Folds) -> tuple[Heading, list[Mapping[str, Any]]]:
@@ -75,7 +93,9 @@ def _heading(study: Study, folds: Folds) -> tuple[Heading, list[Mapping[str, Any
     recipe, warnings = study.recipe, [SIMULATION]
     if len(study.files) < study.expected:
         warnings.append(f"Unfinished: {len(study.files)} of {study.expected} rounds are there.")
-    how = "each participant by a model of a fold that never saw it" if folds.are_held_out else "all participants by one model, which must know none of them"
+    how = "all participants by one model, which must know none of them"
+    if folds.are_held_out:
+        how = "each participant by a model of a fold that never saw it"
     facts = (
         ("Study", f"{recipe.participants} simulated participants, {recipe.rounds} rounds each of {recipe.seconds_per_round:g} s"),
         ("Made with", f"seed {recipe.seed}, {recipe.fps:g} frames per second"),

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 
 from egotouch_sdk.config import StateConfig
@@ -25,10 +24,6 @@ class ParticipantTask:
     model: Path | None
     threads: int = 1
     config: StateConfig | None = None
-
-
-#: Does every task and yields the results in any order; `map` is one, and so is a pool's `imap`.
-RunAll = Callable[[Callable[[ParticipantTask], list[RoundScore]], Iterable[ParticipantTask]], Iterable[list[RoundScore]]]
 
 
 def tasks(study: Study, folds: Folds, threads: int = 1, config: StateConfig | None = None) -> list[ParticipantTask]:
@@ -54,10 +49,11 @@ def score_participant(task: ParticipantTask, done: Callable[[RoundScore], None] 
     return scores
 
 
-def score_study(
-    work: Iterable[ParticipantTask], run_all: RunAll = map, done: Callable[[RoundScore], None] | None = None
-) -> list[RoundScore]:
-    """Score all tasks, in the order of participants and rounds; `run_all` may spread them over workers (without `done`)."""
-    score = score_participant if done is None else partial(score_participant, done=done)
-    scores: Iterator[RoundScore] = (one for part in run_all(score, work) for one in part)
-    return sorted(scores, key=lambda one: (one.participant, one.name))
+def score_study(work: Iterable[ParticipantTask], done: Callable[[RoundScore], None] | None = None) -> list[RoundScore]:
+    """Score all tasks here, one after another, in the order of participants and rounds; `done` is told of each round."""
+    return in_order(score for task in work for score in score_participant(task, done))
+
+
+def in_order(scores: Iterable[RoundScore]) -> list[RoundScore]:
+    """Scores by participant and round, whoever was ready first."""
+    return sorted(scores, key=lambda score: (score.participant, score.name))

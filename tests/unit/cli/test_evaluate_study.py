@@ -49,6 +49,14 @@ def test_folds_score_each_participant_by_its_own_model(study: Path, tmp_path: Pa
     assert "each participant by a model of a fold that never saw it" in report.read_text()
 
 
+def test_several_participants_at_a_time_give_the_same_figures(study: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    arguments = ["evaluate", "study", str(study), "--model", str(signal_model(tmp_path)), "--json"]
+    assert main(arguments) == 0
+    alone = capsys.readouterr().out
+    assert main([*arguments, "--jobs", "2"]) == 0
+    assert capsys.readouterr().out == alone
+
+
 def test_a_study_that_is_not_finished_says_so(study: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (study / "p01-r001.npz").unlink()
     report = tmp_path / "study.html"

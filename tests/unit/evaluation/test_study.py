@@ -1,7 +1,6 @@
 from __future__ import annotations
 
 import pickle
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +9,8 @@ import pytest
 from egotouch_sdk.errors import SourceError
 from egotouch_sdk.evaluation.folds import Folds
 from egotouch_sdk.evaluation.study import score_participant, score_study, tasks
+from egotouch_sdk.evaluation.study_jobs import score_study_on
+from egotouch_sdk.jobs.local import LocalProcesses
 from egotouch_sdk.study_data import Study, open_study
 from tests.support.study import signal_model, study_round, write_study
 
@@ -48,9 +49,16 @@ def test_a_task_and_its_scores_can_be_sent_to_a_worker(study: Study, tmp_path: P
     np.testing.assert_array_equal(scores[0].touch, [letter == "#" for letter in TOUCH])
 
 
-def test_workers_may_answer_in_any_order(study: Study, tmp_path: Path) -> None:
+def test_workers_score_what_one_process_scores(study: Study, tmp_path: Path) -> None:
     work = tasks(study, Folds({}, signal_model(tmp_path)))
+    lines: list[str] = []
+    shared = score_study_on(LocalProcesses(2), work, lines.append)
     alone = score_study(work)
-    with ThreadPoolExecutor(2) as pool:
-        shared = score_study(work, lambda score, all_tasks: pool.map(score, reversed(list(all_tasks))))
-    assert [(score.participant, score.name) for score in shared] == [(score.participant, score.name) for score in alone]
+    assert [(score.participant, score.name, score.frames) for score in shared] == [(s.participant, s.name, s.frames) for s in alone]
+    assert lines[0].startswith("0 of 3 participants are there, 3 to make") and len(lines) == 4
+
+
+def test_a_participant_who_cannot_be_scored_is_named(study: Study, tmp_path: Path) -> None:
+    (study.folder / "p01-r001.npz").write_bytes(b"no round")
+    with pytest.raises(SourceError, match=r"p01 could not be scored: .*p01-r001\.npz is not a readable round"):
+        score_study_on(LocalProcesses(1), tasks(study, Folds({}, signal_model(tmp_path))), lambda line: None)
