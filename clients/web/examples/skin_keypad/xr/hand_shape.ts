@@ -1,5 +1,5 @@
 /** The wearer's hands as plain shapes, for headsets that do not show the real ones. */
-import { CapsuleGeometry, Group, InstancedMesh, Matrix4, MeshStandardMaterial, Quaternion, SphereGeometry, Vector3 } from "./three_parts.js";
+import { CapsuleGeometry, Group, InstancedMesh, Matrix4, Mesh, MeshStandardMaterial, Quaternion, SphereGeometry, Vector3 } from "./three_parts.js";
 
 const FINGERS = ["thumb", "index-finger", "middle-finger", "ring-finger", "pinky-finger"] as const;
 const PARTS = ["metacarpal", "phalanx-proximal", "phalanx-intermediate", "phalanx-distal", "tip"] as const;
@@ -20,17 +20,21 @@ const RADIUS_M = 0.009;
 /** Balls larger than this would stick out of the palm and hide keys. */
 const MOST_RADIUS_M = 0.0135;
 const UP = new Vector3(0, 1, 0);
+const [WRIST, KNUCKLE] = [0, JOINTS.indexOf("middle-finger-phalanx-proximal")];
+/** Beyond the wrist WebXR knows nothing of an arm; this much is drawn, in metres: as thick as carries the keys (`SKIN_MM`). */
+const FOREARM_M = { radius: 0.024, length: 0.22 };
 
 export class HandShape extends Group {
   readonly #material = new MeshStandardMaterial({ color: 0xb98a6d, roughness: 0.85 });
   readonly #joints = new InstancedMesh(new SphereGeometry(1, 16, 12), this.#material, JOINTS.length);
   readonly #bones = new InstancedMesh(new CapsuleGeometry(1, 1, 3, 12), this.#material, BONES.length);
+  readonly #forearm = new Mesh(new CapsuleGeometry(FOREARM_M.radius, FOREARM_M.length, 8, 24), this.#material);
   readonly #places = JOINTS.map(() => new Vector3());
   readonly #radii = JOINTS.map(() => RADIUS_M);
 
   constructor() {
     super();
-    this.add(this.#joints, this.#bones);
+    this.add(this.#joints, this.#bones, this.#forearm);
     for (const mesh of [this.#joints, this.#bones]) mesh.frustumCulled = false;
   }
 
@@ -53,11 +57,19 @@ export class HandShape extends Group {
       this.#bones.setMatrixAt(i, matrix.compose(new Vector3().addVectors(a, b).multiplyScalar(0.5), turn, new Vector3(radius, length / 2, radius)));
     });
     for (const mesh of [this.#joints, this.#bones]) mesh.instanceMatrix.needsUpdate = true;
+    this.#layForearm(this.#places[WRIST]!, this.#places[KNUCKLE]!);
   }
 
   dispose(): void {
     this.#material.dispose();
-    for (const mesh of [this.#joints, this.#bones]) mesh.geometry.dispose();
+    for (const mesh of [this.#joints, this.#bones, this.#forearm]) mesh.geometry.dispose();
+  }
+
+  /** From the wrist on, straight away from the fingers: where the events have it. */
+  #layForearm(wrist: Vector3, knuckle: Vector3): void {
+    const away = new Vector3().subVectors(wrist, knuckle).normalize();
+    this.#forearm.quaternion.setFromUnitVectors(UP, away);
+    this.#forearm.position.copy(wrist).addScaledVector(away, FOREARM_M.length / 2);
   }
 
   #read(frame: XRFrame, space: XRSpace, joint: XRJointSpace | undefined, i: number): boolean {

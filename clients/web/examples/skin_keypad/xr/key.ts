@@ -11,7 +11,7 @@ const CAP_MM = 1.6;
 /** Height of the cap's lower side above the skin: as it is, under a hovering finger, touched, and under the hardest press. */
 const LIFT_MM = { plain: 3, hovered: 4, touched: 2, sunk: 0.2 };
 /** Colours in sRGB. */
-const COLOURS = { plain: 0x2c4a64, hovered: 0x3f7ba6, soft: 0x53c2f5, hard: 0x0a4fb4, well: 0x06121d };
+const COLOURS = { plain: 0x2c4a64, hovered: 0x3f7ba6, soft: 0x53c2f5, hard: 0x05307c, well: 0x06121d };
 /** How fast a cap follows, per second. */
 const FOLLOW_HZ = 28;
 const FLASH_S = 0.42;
@@ -63,7 +63,7 @@ export class KeyMesh extends Group {
     if (isPressed) this.#colour.set(COLOURS.soft).lerp(new Color(COLOURS.hard), share);
     else this.#colour.set(isHovered ? COLOURS.hovered : COLOURS.plain);
     this.#face.material.color.lerp(this.#colour, step);
-    this.#face.material.emissive.copy(this.#face.material.color).multiplyScalar(isPressed ? 0.55 : isHovered ? 0.25 : 0.08);
+    this.#face.material.emissive.copy(this.#face.material.color).multiplyScalar(isPressed ? 0.3 : isHovered ? 0.25 : 0.08);
     this.#fade(seconds);
   }
 
