@@ -11,7 +11,7 @@ import type { Subscription } from "./listeners/registry.js";
 import { METHODS, type ErrorEvent, type TrackingState } from "./listeners/touch_listener.js";
 import { EVENT_TYPES, GATE_REASONS } from "./wire/enums.js";
 import type { ClientBody } from "./wire/messages.js";
-import { sameOrigin, systemClock, type Clock, type SocketConstructor } from "./platform.js";
+import { noAnswerAt, sameOrigin, systemClock, type Clock, type SocketConstructor } from "./platform.js";
 
 const SUBPROTOCOL = "egotouch.v1.pb";
 const TICK_MS = 50;
@@ -89,6 +89,7 @@ export class EgoTouchClient extends Listeners {
       debug: options.debug ?? false,
       inputTtlMs: options.inputTtlMs ?? null,
       random: options.random ?? Math.random,
+      noAnswer: noAnswerAt(options.url),
     });
     this.#session.token = options.token ?? "";
     this.#session.pairingCode = options.pairingCode ?? "";

@@ -1,5 +1,6 @@
 // What differs between browsers, Node and tests: sockets, time, and where the server is.
 
+import { NO_ANSWER } from "./core/close_codes.js";
 import { EgoTouchError } from "./errors.js";
 
 /** The WebSocket class of a browser, of the package `ws`, or of a test. */
@@ -17,6 +18,15 @@ export const systemClock: Clock = {
   setInterval: (work, everyMs) => globalThis.setInterval(work, everyMs),
   clearInterval: (timer) => globalThis.clearInterval(timer as number),
 };
+
+/** What keeps a page from a server that may well be running; browsers themselves do not say. */
+export function noAnswerAt(url: string | URL | undefined): string {
+  if (url === undefined || typeof location === "undefined") return NO_ANSWER;
+  const { protocol, hostname, host } = new URL(url, location.href);
+  if (protocol === "wss:") return `${NO_ANSWER} If its certificate is its own: open https://${host}/ once and accept it.`;
+  if (location.protocol !== "https:" || hostname === "localhost" || hostname === "127.0.0.1") return NO_ANSWER;
+  return `${NO_ANSWER} This page came over https: browsers let it reach ws:// addresses of the local network only after asking, and some never do.`;
+}
 
 /** The address of the server that sent this page. */
 export function sameOrigin(): string {

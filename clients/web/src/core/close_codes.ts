@@ -31,9 +31,14 @@ export interface CloseAdvice {
   readonly access: boolean;
 }
 
-/** What to do about a close code; `wasLive` when the server had welcomed this connection. */
-export function closeAdvice(code: number, reason: string, wasLive: boolean): CloseAdvice {
-  const fallback = wasLive ? "The connection was lost." : "No server answers at this address. Is `egotouch serve` running?";
+export const NO_ANSWER = "No server answers at this address. Is `egotouch serve` running?";
+
+/**
+ * What to do about a close code; `wasLive` when the server had welcomed this connection. `noAnswer` says what to look at when none was
+ * made at all: browsers do not tell why.
+ */
+export function closeAdvice(code: number, reason: string, wasLive: boolean, noAnswer = NO_ANSWER): CloseAdvice {
+  const fallback = wasLive ? "The connection was lost." : noAnswer;
   const known = code === 1006 && !wasLive ? fallback : ADVICE[code];
   const said = reason ? `${reason.charAt(0).toUpperCase()}${reason.slice(1)}${/[.!?]$/.test(reason) ? "" : "."}` : "";
   const text = [known ?? (said || fallback), known && said && !SAID.has(code) ? said : ""].filter(Boolean).join(" ");

@@ -45,6 +45,8 @@ export interface SessionOptions {
   /** An event older than this on arrival does not act; null takes the server's own limit. */
   readonly inputTtlMs: number | null;
   readonly random: () => number;
+  /** What to tell the user when no connection could be made. */
+  readonly noAnswer?: string;
 }
 
 /** What the shell has to do, and what the app is told, in this order. */
@@ -173,7 +175,7 @@ export class Session {
   /** The connection is gone, or could not be made. */
   closed(code: number, reason: string, nowMs: number): Effect[] {
     if (this.#link === "none") return [];
-    const advice = closeAdvice(code, reason, this.#welcome !== null);
+    const advice = closeAdvice(code, reason, this.#welcome !== null, this.#options.noAnswer);
     if (advice.retry) return this.#lost(advice.text, nowMs);
     this.#forgetLink();
     const effects = [...this.#endAll(), ...this.#change("disconnected", advice.text)];
