@@ -31,13 +31,14 @@ class BayesFactor:
     levels: int
 
 
-def bayes_factor(levels: Levels, *, within: bool) -> BayesFactor:
-    """Bayes factor of accuracies; `within` where every participant has every level, else each has one.
+def bayes_factor(levels: Levels) -> BayesFactor:
+    """Bayes factor of accuracies: between participants where each has but one level, else within them.
 
     Within participants, those who miss a level are left out. Raises `MissingExtraError` for two levels without the extra.
     """
-    if within:
-        complete = sorted(set.intersection(*(set(row) for row in levels.values()))) if levels else []
+    everyone = [number for row in levels.values() for number in row]
+    if len(set(everyone)) < len(everyone):
+        complete = sorted(set.intersection(*(set(row) for row in levels.values())))
         table = np.array([[row[number] for row in levels.values()] for number in complete]).reshape(len(complete), len(levels))
         table = table[np.isfinite(table).all(axis=1)]
         count = len(table)

@@ -54,10 +54,6 @@ class Truth:
         )
 
 
-#: Conditions that divide the participants of a study; in all others each is compared with themselves.
-BETWEEN_PARTICIPANTS = frozenset({"skin tone", "hair"})
-
-
 #: Values of conditions in the order in which they are told; all others follow by name.
 ORDER = ("I", "II", "III", "IV", "V", "VI", *Hair, *Surface, *TouchType, *Finger)
 

@@ -94,7 +94,9 @@ def _plots(title: str, summary: Summary) -> list[Plot]:
         ]
     if title == "Time" and summary.onset_delays:
         columns = [(f"{ms:.0f}", count) for ms, count in summary.onset_delays]
-        return [Plot(column_plot(columns, unit=""), "Onset delay of clicks in ms, told minus true; one column per frame at 30 fps.")]
+        return [
+            Plot(column_plot(columns, unit="", digits=0), "Onset delay of clicks in ms, told minus true; a column per frame at 30 fps.")
+        ]
     if title == "Hover":
         columns = [(_height(name), summary.overall[name].pooled * 100) for name in height_names()]
         return [Plot(column_plot(columns, top=100), "Hovering frames told as hover, by height of the fingertip in mm.")]

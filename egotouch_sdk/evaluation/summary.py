@@ -13,7 +13,6 @@ from egotouch_sdk.errors import MissingExtraError, SourceError
 from egotouch_sdk.evaluation.bayes import BayesFactor, bayes_factor
 from egotouch_sdk.evaluation.bootstrap import Interval, interval_of_mean
 from egotouch_sdk.evaluation.round_score import RoundScore
-from egotouch_sdk.evaluation.round_truth import BETWEEN_PARTICIPANTS
 from egotouch_sdk.evaluation.study_score import Figures, Group, Spread, by_participant, figures, frame_figures, groups, worst
 
 Curve = tuple[tuple[float, float], ...]
@@ -156,14 +155,14 @@ def _conditions(scores: Sequence[RoundScore]) -> dict[str, Condition]:
         if len(parts) < 2:
             continue
         weakest = worst(parts)
-        result[name] = Condition(tuple(parts), None if weakest is None else weakest.name, _bayes(name, parts))
+        result[name] = Condition(tuple(parts), None if weakest is None else weakest.name, _bayes(parts))
     return result
 
 
-def _bayes(condition: str, parts: Sequence[Group]) -> BayesFactor:
+def _bayes(parts: Sequence[Group]) -> BayesFactor:
     levels = {part.name: part.accuracies for part in parts}
     try:
-        return bayes_factor(levels, within=condition not in BETWEEN_PARTICIPANTS)
+        return bayes_factor(levels)
     except MissingExtraError as missing:
         return BayesFactor(nan, missing.hint, 0, len(parts))
 

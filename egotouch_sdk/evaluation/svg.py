@@ -36,8 +36,8 @@ def interval_plot(rows: Sequence[tuple[str, float, Interval]], reference: float 
     return _svg(height, parts)
 
 
-def column_plot(columns: Sequence[tuple[str, float]], top: float | None = None, unit: str = "%") -> str:
-    """One column per (label, value) from 0 up to `top`, its value above it; nan leaves a gap."""
+def column_plot(columns: Sequence[tuple[str, float]], top: float | None = None, unit: str = "%", digits: int = 1) -> str:
+    """One column per (label, value) from 0 up to `top`, its value above it with so many `digits`; nan leaves a gap."""
     height, base = 200, 200 - _BOTTOM
     highest = top or max((value for _, value in columns if not isnan(value)), default=1.0) or 1.0
     step = (WIDTH - 2 * _RIGHT) / max(len(columns), 1)
@@ -54,7 +54,7 @@ def column_plot(columns: Sequence[tuple[str, float]], top: float | None = None, 
             f'<rect class="ours" x="{middle - step * 0.36:.1f}" y="{base - tall:.1f}" width="{step * 0.72:.1f}" height="{tall:.1f}"/>'
         )
         if shows_value:
-            parts.append(f'<text class="middle" x="{middle:.1f}" y="{base - tall - 5:.1f}">{value:.1f}{unit}</text>')
+            parts.append(f'<text class="middle" x="{middle:.1f}" y="{base - tall - 5:.1f}">{value:.{digits}f}{unit}</text>')
     return _svg(height, parts)
 
 

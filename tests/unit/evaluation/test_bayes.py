@@ -27,7 +27,7 @@ def test_more_than_two_groups_follow_the_bic_of_statsmodels() -> None:
     null = models.OLS(values, np.ones((15, 1))).fit().bic
     full = models.OLS(values, np.eye(3)[group]).fit().bic
     assert between_factor(samples) == pytest.approx(exp((null - full) / 2))
-    assert bayes_factor(apart(*samples), within=False).factor == pytest.approx(between_factor(samples))
+    assert bayes_factor(apart(*samples)).factor == pytest.approx(between_factor(samples))
 
 
 def test_levels_within_participants_follow_the_residuals_of_statsmodels() -> None:
@@ -45,10 +45,10 @@ def test_two_levels_are_the_t_test_of_pingouin() -> None:
     pingouin, stats = pytest.importorskip("pingouin"), pytest.importorskip("scipy.stats")
     rng = np.random.default_rng(5)
     first, second = rng.normal(0.95, 0.02, 15).tolist(), rng.normal(0.93, 0.02, 15).tolist()
-    paired = bayes_factor(levels(first, second), within=True)
+    paired = bayes_factor(levels(first, second))
     t = stats.ttest_rel(first, second).statistic
     assert paired.factor == pytest.approx(float(pingouin.bayesfactor_ttest(t, 15, paired=True))) and paired.method == "JZS, paired"
-    groups = bayes_factor(apart(first, second[:9]), within=False)
+    groups = bayes_factor(apart(first, second[:9]))
     t = stats.ttest_ind(first, second[:9]).statistic
     assert groups.factor == pytest.approx(float(pingouin.bayesfactor_ttest(t, 15, 9))) and groups.participants == 24
 
@@ -56,20 +56,27 @@ def test_two_levels_are_the_t_test_of_pingouin() -> None:
 def test_a_strong_effect_is_far_above_one_and_none_is_below() -> None:
     rng = np.random.default_rng(6)
     same = [rng.normal(0.95, 0.01, 15).tolist() for _ in range(4)]
-    assert bayes_factor(levels(*same), within=True).factor < 1
+    assert bayes_factor(levels(*same)).factor < 1
     moved = [(np.array(column) - 0.02 * number).tolist() for number, column in enumerate(same)]
-    assert bayes_factor(levels(*moved), within=True).factor > 1000
+    assert bayes_factor(levels(*moved)).factor > 1000
 
 
 def test_participants_who_miss_a_level_are_left_out() -> None:
     table = levels([0.9, 0.8, 0.95, 0.9], [0.91, 0.85, 0.96], [0.9, 0.82, 0.93, 0.7])
-    assert bayes_factor(table, within=True).participants == 3
+    assert bayes_factor(table).participants == 3
+
+
+def test_participants_of_one_level_each_are_compared_between_and_all_others_within() -> None:
+    columns = [0.9, 0.8, 0.95], [0.91, 0.85, 0.96], [0.9, 0.82, 0.93]
+    assert bayes_factor(apart(*columns)).method == "BIC, between participants"
+    assert bayes_factor(levels(*columns)).method == "BIC, within participants"
+    assert bayes_factor({**levels(*columns[:2]), "none": {}}).method == "too few"
 
 
 def test_too_few_have_no_factor() -> None:
-    assert isnan(bayes_factor(levels([0.9], [0.8]), within=True).factor)
-    assert isnan(bayes_factor(apart([0.9]), within=False).factor)
-    assert isnan(bayes_factor({}, within=True).factor)
+    assert isnan(bayes_factor(levels([0.9], [0.8])).factor)
+    assert isnan(bayes_factor(apart([0.9])).factor) and isnan(bayes_factor(apart([0.9], [0.8])).factor)
+    assert isnan(bayes_factor({}).factor)
 
 
 def test_a_missing_package_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -82,4 +89,4 @@ def test_a_missing_package_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
 
     monkeypatch.setattr(builtins, "__import__", without_pingouin)
     with pytest.raises(MissingExtraError, match=r"egotouch-sdk\[evaluation\]"):
-        bayes_factor(levels([0.9, 0.8, 0.95], [0.91, 0.85, 0.96]), within=True)
+        bayes_factor(levels([0.9, 0.8, 0.95], [0.91, 0.85, 0.96]))
