@@ -13,9 +13,12 @@ from egotouch_sdk.synthetic.participants import FIRST_SEED, PARTICIPANTS
 from egotouch_sdk.synthetic.skin import SkinIdentity
 from egotouch_sdk.synthetic.wearables import Item, Sleeve, Srgb, covers, dress
 
-#: Share of rounds with sleeves, indoors and outdoors, and how far from the contact anything worn stays (all our choice).
+#: Share of rounds with sleeves, indoors and outdoors, and how far from the contact anything worn stays: a drag goes 10 mm, a fingertip
+#: covers 6 (all our choice).
 SLEEVE_ODDS = {False: 0.45, True: 0.65}
-MARGIN_M = 0.022
+MARGIN_M = 0.018
+#: A sleeve that would be in the way is pushed up at most this much farther than the margin.
+_SPARE_M = 0.04
 #: Where sleeves end: pushed up or down, from the wrist joint towards the elbow.
 _SLEEVE_END_M, _STRIPED = (0.0, 0.24), 0.3
 
@@ -35,7 +38,7 @@ def draw_outfit(rng: np.random.Generator, number: int, outdoors: bool, on_arm_m:
     ends = rng.uniform(*_SLEEVE_END_M, 2)
     if sleeved:
         colour, stripe, stripe_mm = _garment(number, outdoors)
-        free_m = max(float(on_arm_m[2]) + MARGIN_M + 0.008, _SLEEVE_END_M[0])
+        free_m = float(on_arm_m[2]) + MARGIN_M + float(rng.uniform(0.002, _SPARE_M))
         left.append(Sleeve(max(float(ends[0]), free_m), colour, stripe, stripe_mm))
         right.append(Sleeve(float(ends[1]), colour, stripe, stripe_mm))
     return tuple(left), tuple(right)
