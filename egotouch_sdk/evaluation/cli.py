@@ -28,7 +28,7 @@ HOST_FRAME_EXAMPLES = """\
 
 def add_parser(subparsers: Subparsers) -> None:
     """Add `evaluate` to the command line."""
-    parser = add_command(subparsers, "evaluate", "measure the touch model on real pictures or on video without touches", EXAMPLES)
+    parser = add_command(subparsers, "evaluate", "measure the touch model: simulated study, labelled recordings, real pictures", EXAMPLES)
     kinds = parser.add_subparsers(title="what to measure", metavar="KIND", required=True)
     evaluate_study.add_parser(kinds)
     evaluate_real.add_parsers(kinds)

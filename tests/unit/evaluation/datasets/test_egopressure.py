@@ -1,12 +1,13 @@
 from __future__ import annotations
 
 import json
+import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from egotouch_sdk.errors import SourceError
+from egotouch_sdk.errors import MissingExtraError, SourceError
 from egotouch_sdk.evaluation.datasets.egopressure import find_egopressure
 from egotouch_sdk.evaluation.datasets.recording import LabelledRecording
 from egotouch_sdk.evaluation.datasets.run import score_recording
@@ -117,6 +118,13 @@ def test_a_folder_without_sequences_or_annotations_is_named(tmp_path: Path) -> N
         find_egopressure(tmp_path)
     write_egopressure(tmp_path, "p_001", "high_x5", "xxx")
     with pytest.raises(SourceError, match="has no annotated frame"):
+        load(tmp_path)
+
+
+def test_the_missing_package_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    write_egopressure(tmp_path, "p_001", "high_x5", "..#")
+    monkeypatch.setitem(sys.modules, "pyarrow", None)
+    with pytest.raises(MissingExtraError, match=r"egotouch-sdk\[evaluation\]"):
         load(tmp_path)
 
 
