@@ -1,8 +1,9 @@
 // Bytes to messages and back.
 
-import { create, fromBinary, toBinary, type MessageInitShape } from "@bufbuild/protobuf";
+import type { MessageInitShape } from "@bufbuild/protobuf";
 import { EgoTouchError } from "../errors.js";
-import { ClientMessageSchema, ServerMessageSchema, type ServerMessage } from "../gen/egotouch/v1/egotouch_pb.js";
+import type { ClientMessageSchema, ServerMessage } from "../gen/egotouch/v1/egotouch_pb.js";
+import { decode, encode } from "./codec.js";
 
 /** The body of a message to the server, for example `{ case: "simulated", value: { pointers: [] } }`. */
 export type ClientBody = NonNullable<MessageInitShape<typeof ClientMessageSchema>["body"]>;
@@ -10,12 +11,12 @@ export type ClientBody = NonNullable<MessageInitShape<typeof ClientMessageSchema
 /** The message in these bytes; what a newer server added is passed over. Throws for bytes that are no message. */
 export function decodeServerMessage(data: Uint8Array): ServerMessage {
   try {
-    return fromBinary(ServerMessageSchema, data);
+    return decode("ServerMessage", data) as ServerMessage;
   } catch (error) {
     throw new EgoTouchError("protocol", `malformed message: ${data.length} bytes are no ServerMessage (${String(error)})`);
   }
 }
 
 export function encodeClientMessage(body: ClientBody): Uint8Array<ArrayBuffer> {
-  return toBinary(ClientMessageSchema, create(ClientMessageSchema, { body }));
+  return encode("ClientMessage", { body });
 }
