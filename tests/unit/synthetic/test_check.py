@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import cv2
 import numpy as np
 import pytest
 
+from egotouch_sdk.cli.main import EXIT_ERROR, main
+from egotouch_sdk.study_data import StudyRecipe, write_recipe, write_round
 from egotouch_sdk.synthetic.check import STATISTICS, compare, crease, effect_size, hue, saturation, sharpness, table
+from tests.support.study import study_round
 
 SKIN = (205, 155, 127)
 
@@ -61,3 +66,30 @@ def test_wide_renders_around_real_patches_are_covered() -> None:
     rows = {row.statistic: row for row in compare(wide, np.ones(30, bool), narrow, np.ones(30, bool))}
     assert rows["sharpness"].verdict == "covered" and rows["sharpness"].effect > 0.5
     assert {row.kind for row in rows.values()} == {"touch"}
+
+
+def real_folder(folder: Path, count: int = 6) -> Path:
+    """Finger-up pictures with labels: touches have the dark curve, hovers do not; one is of nothing."""
+    folder.mkdir()
+    rows = ["file,recording,frame,label,press_strength,label_confidence,force_sensor_counts"]
+    for k in range(count):
+        cv2.imwrite(str(folder / f"{k}.png"), patch(line=40 * (k % 2), noise=3, seed=k))
+        rows.append(f"{k}.png,a,{k},{('hover', 'touch')[k % 2]},,0.9,")
+    rows.append(f"none.png,a,{count},none,,0.9,")
+    (folder / "labels.csv").write_text("\n".join(rows) + "\n")
+    return folder
+
+
+def test_the_command_compares_a_study_with_pictures(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    study, real = tmp_path / "study", real_folder(tmp_path / "real")
+    write_recipe(study, StudyRecipe(seed=0, fps=30.0, participants=1, rounds=1, seconds_per_round=1.0))
+    write_round(study, study_round("........########" * 4))
+    command = ["synth", "check", str(study), str(real), "--tip", "49.5,49.5", "--px-per-mm", "2.5"]
+    assert main(command) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[0] == "8 renders (4 touches) against 6 real patches (3 touches)"
+    assert sum("touch" in line for line in lines[2:]) == sum("hover" in line for line in lines[2:]) == len(STATISTICS)
+    assert main([*command, "--finger", "thumb"]) == EXIT_ERROR
+    assert "no renders of that finger and place" in capsys.readouterr().err
+    assert main(["synth", "check", str(real), str(real)]) == EXIT_ERROR
+    assert "no shards and no study" in capsys.readouterr().err
