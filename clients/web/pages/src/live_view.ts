@@ -73,7 +73,10 @@ for (const finger of FINGERS) {
 }
 
 function percentiles(key: string): string {
-  const [middle, high] = [0.5, 0.95].map((share) => latency.percentile(key, share)?.toFixed(1));
+  const [middle, high] = [0.5, 0.95].map((share) => {
+    const ms = latency.percentile(key, share);
+    return ms?.toFixed(ms < 100 ? 1 : 0);
+  });
   return middle === undefined ? "" : `${key} ${middle} / ${high} ms`;
 }
 

@@ -12,6 +12,17 @@ export const ROOT = fileURLToPath(new URL("../../../../", import.meta.url));
 const VENV_PYTHON = `${ROOT}.venv/bin/python`;
 export const PYTHON = process.env["EGOTOUCH_PYTHON"] ?? (existsSync(VENV_PYTHON) ? VENV_PYTHON : "python3");
 
+/** Runs the command `egotouch`; on Linux it ends with the process that started it, however that ends. */
+const EGOTOUCH = `
+import runpy, sys
+if sys.platform == "linux":
+    import ctypes
+    ctypes.CDLL(None).prctl(1, 9)  # PR_SET_PDEATHSIG, SIGKILL
+runpy.run_module("egotouch_sdk.cli.main", run_name="__main__", alter_sys=True)
+`;
+const running = new Set<ChildProcess>();
+process.on("exit", () => running.forEach((server) => server.kill("SIGKILL")));
+
 /** Nothing here takes long; what takes longer has failed. */
 export const PATIENCE_MS = 30_000;
 
@@ -37,8 +48,10 @@ export class PythonServer {
   async start(): Promise<void> {
     // A loaded machine may hold the server up for longer than a camera may stall.
     const env = { ...process.env, EGOTOUCH_STATE__STALL_MS: "5000" };
-    const started = spawn(PYTHON, ["-m", "egotouch_sdk.cli.main", ...this.#command, "--port", this.#port], { cwd: ROOT, env, stdio: ["ignore", "pipe", "inherit"] });
+    const started = spawn(PYTHON, ["-c", EGOTOUCH, ...this.#command, "--port", this.#port], { cwd: ROOT, env, stdio: ["ignore", "pipe", "inherit"] });
     this.#process = started;
+    running.add(started);
+    started.once("exit", () => running.delete(started));
     for await (const line of createInterface({ input: started.stdout })) {
       const address = /http:\/\/[^/]*:(\d+)\//.exec(line);
       if (!address) continue;
@@ -51,11 +64,11 @@ export class PythonServer {
 
   /** End it without a word, as a crash would. */
   async kill(): Promise<void> {
-    const running = this.#process;
+    const server = this.#process;
     this.#process = null;
-    if (!running || running.exitCode !== null || running.signalCode !== null) return;
-    running.kill("SIGKILL");
-    await once(running, "exit");
+    if (!server || server.exitCode !== null || server.signalCode !== null) return;
+    server.kill("SIGKILL");
+    await once(server, "exit");
   }
 
   signal(name: "SIGSTOP" | "SIGCONT" | "SIGINT"): void {
