@@ -7,7 +7,7 @@ import { KeypadPage, PHONE, SkinFinger, until } from "./keypad_page.js";
 
 const SCRIPT = fileURLToPath(new URL("../../../../examples/skin_keypad/dial.yaml", import.meta.url));
 
-describe.skipIf(!chromiumPath())("the skin keypad in a browser", { retry: 1 }, () => {
+describe.skipIf(!chromiumPath())("the skin keypad in a browser", { retry: 1, timeout: 150_000 }, () => {
   let browser: Browser;
   let server: PythonServer;
   let keypad: KeypadPage;
@@ -37,22 +37,18 @@ describe.skipIf(!chromiumPath())("the skin keypad in a browser", { retry: 1 }, (
       keypad.page.locator('.key[data-key="5"]').evaluate((key) => Number((key as unknown as SVGElement).style.getPropertyValue("--force")));
     await finger.hover("5");
     expect(await force()).toBe(0);
-    await finger.press("5", 0.7);
-    await until(async () => (await force()) > 0.15, async () => "a soft press");
-    expect(await force()).toBeCloseTo(0.2, 1);
-    finger.play({ ...(await keypad.place("5")), forceN: 2.8 });
-    await until(async () => (await force()) > 0.75, async () => "a hard press");
-    expect(await keypad.page.locator("#newtons").textContent()).toBe("2.8 N");
-    await keypad.screenshot("pressed");
-    await finger.lift("5");
+    const seen = await finger.squeeze("5", [0.7, 2.8], async () => {
+      await keypad.screenshot("pressed");
+      return force();
+    });
+    expect(seen).toEqual([expect.closeTo(0.2, 1), expect.closeTo(0.8, 1)]);
     await keypad.expectNumber("5");
-    expect(await force()).toBe(0);
+    await until(async () => (await force()) === 0, async () => "the key to come up");
   });
 
   test("gives + when 0 is held, and no 0 afterwards", async () => {
-    await finger.press("0");
+    await finger.hold("0", "plus");
     await keypad.expectNumber("+");
-    await finger.lift("0");
     await finger.tap("4");
     await keypad.expectNumber("+4");
   });
@@ -60,18 +56,10 @@ describe.skipIf(!chromiumPath())("the skin keypad in a browser", { retry: 1 }, (
   test("erases the last digit when the finger is dragged to the left, and dials nothing then or when it is dragged elsewhere", async () => {
     await finger.tap("7", "8", "9");
     await keypad.expectNumber("789");
-    const from = await keypad.place("6");
-    await finger.press("6");
     // The left palm's thumb, +x, is on the wearer's left.
-    for (const way of [8, 16, 24, 34]) finger.play({ ...from, xMm: from.xMm + way, forceN: 1 });
-    await keypad.expectKey("6", "plain");
-    finger.play({ ...from, xMm: from.xMm + 34 });
+    await finger.drag("6", { xMm: 34, yMm: 0 }, "erased");
     await keypad.expectNumber("78");
-    await finger.press("2");
-    const above = await keypad.place("2");
-    finger.play({ ...above, yMm: above.yMm + 30, forceN: 1 });
-    await keypad.expectKey("2", "plain");
-    finger.play({ ...above, yMm: above.yMm + 30 });
+    await finger.drag("2", { xMm: 0, yMm: 30 });
     await finger.tap("3");
     await keypad.expectNumber("783");
   });
@@ -137,7 +125,7 @@ describe.skipIf(!chromiumPath())("the skin keypad in a browser", { retry: 1 }, (
   });
 });
 
-test.skipIf(!chromiumPath())("the skin keypad dials what a script taps", { retry: 1 }, async () => {
+test.skipIf(!chromiumPath())("the skin keypad dials what a script taps", { retry: 1, timeout: 150_000 }, async () => {
   const server = new PythonServer(["simulate", SCRIPT, "--serve", "--no-browser"]);
   await server.start();
   const browser = await launch();

@@ -5,7 +5,7 @@ import { fileURLToPath } from "node:url";
 import type { Browser, BrowserContextOptions, Page } from "playwright-core";
 import { WebSocket } from "ws";
 import { EgoTouchClient } from "../../src/index.js";
-import type { KeypadModel } from "../../examples/skin_keypad/keypad_model.js";
+import type { KeypadModel, Note } from "../../examples/skin_keypad/keypad_model.js";
 import type { LimbPicture } from "../../examples/skin_keypad/limb_picture.js";
 import type { KeypadScene } from "../../examples/skin_keypad/xr/keypad_scene.js";
 import { PATIENCE_MS, PlayedHand, type Played, type PythonServer } from "../support/python_server.js";
@@ -13,6 +13,14 @@ import { PATIENCE_MS, PlayedHand, type Played, type PythonServer } from "../supp
 export const DESKTOP = { width: 1440, height: 900 };
 export const PHONE = { width: 390, height: 844 };
 const SCREENSHOTS = fileURLToPath(new URL("../screenshots/", import.meta.url));
+
+/** How long and how often a finger tries. */
+const TRY_MS = 5000;
+const TRIES = 6;
+
+type Look = "hovered" | "pressed" | "plain";
+const keyWith = (key: string, look: Look): string =>
+  `.key[data-key="${key}"]${look === "plain" ? ":not(.hovered):not(.pressed)" : `.${look}`}`;
 
 declare global {
   var egotouch: { client: EgoTouchClient; model: KeypadModel; picture: LimbPicture; scene: KeypadScene | null };
@@ -56,18 +64,31 @@ export class KeypadPage {
     return (await this.page.locator("#number").textContent()) ?? "";
   }
 
-  async note(): Promise<string> {
-    return (await this.page.locator("#note").textContent()) ?? "";
+  /** What happened last on the keypad. */
+  async note(): Promise<Note> {
+    return this.page.evaluate(() => egotouch.model.note);
   }
 
+  /** The first thing that happens after `before`. */
+  async nextNote(before: Note): Promise<Note> {
+    await until(async () => (await this.note()).serial > before.serial, async () => `something after ${JSON.stringify(before)}`);
+    return this.note();
+  }
+
+  /** Wait until the page says this. */
   async expectNote(text: RegExp): Promise<void> {
-    await until(async () => text.test(await this.note()), async () => `the note ${String(text)} instead of ${await this.note()}`);
+    const said = async (): Promise<string> => (await this.page.locator("#note").textContent()) ?? "";
+    await until(async () => text.test(await said()), async () => `the note ${String(text)} instead of ${await said()}`);
   }
 
   /** Wait until this key is `hovered` or `pressed`, or neither. */
-  async expectKey(key: string, look: "hovered" | "pressed" | "plain"): Promise<void> {
-    const wanted = look === "plain" ? ":not(.hovered):not(.pressed)" : `.${look}`;
-    await this.page.locator(`.key[data-key="${key}"]${wanted}`).waitFor();
+  async expectKey(key: string, look: Look): Promise<void> {
+    await this.page.locator(keyWith(key, look)).waitFor();
+  }
+
+  /** The same for a while; false when it does not happen. */
+  async isKey(key: string, look: Look, timeout: number): Promise<boolean> {
+    return this.page.locator(keyWith(key, look)).waitFor({ timeout }).then(() => true, () => false);
   }
 
   /** Where a key is: in the host frame, with the surface and the touching hand. */
@@ -123,10 +144,32 @@ export class SkinFinger {
     await this.#keypad.expectKey(key, "hovered");
   }
 
+  /** Press a key and stay on it. */
   async press(key: string, forceN = 1): Promise<void> {
-    await this.hover(key);
-    this.#hand.play({ ...(await this.#keypad.place(key)), forceN });
-    await this.#keypad.expectKey(key, "pressed");
+    await this.#again(`press ${key}`, async () => {
+      await this.hover(key);
+      this.#hand.play({ ...(await this.#keypad.place(key)), forceN });
+      return this.#keypad.isKey(key, "pressed", TRY_MS);
+    });
+  }
+
+  /** Press with all of these forces, one after the other, and lift: what `seen` gives for each. */
+  async squeeze<Seen>(key: string, forcesN: readonly number[], seen: () => Promise<Seen>): Promise<Seen[]> {
+    const found: Seen[] = [];
+    await this.#again(`press ${key} with ${forcesN.join(", ")} N`, async () => {
+      found.length = 0;
+      const before = await this.#keypad.note();
+      for (const forceN of forcesN) {
+        if (found.length === 0) await this.press(key, forceN);
+        this.#hand.play({ ...(await this.#keypad.place(key)), forceN });
+        const shown = this.#keypad.page.locator("#newtons", { hasText: `${forceN.toFixed(1)} N` });
+        if (!(await shown.waitFor({ timeout: TRY_MS }).then(() => true, () => false))) return false;
+        found.push(await seen());
+      }
+      await this.lift(key);
+      return (await this.#keypad.nextNote(before)).kind === "key";
+    });
+    return found;
   }
 
   /** Hover or touch somewhere, without waiting. */
@@ -141,9 +184,44 @@ export class SkinFinger {
 
   async tap(...keys: string[]): Promise<void> {
     for (const key of keys) {
-      await this.press(key);
-      await this.lift(key);
+      await this.#again(`tap ${key}`, async () => {
+        const before = await this.#keypad.note();
+        await this.press(key);
+        await this.lift(key);
+        return (await this.#keypad.nextNote(before)).kind !== "cancelled";
+      });
     }
+  }
+
+  /** Press a key until a note of this kind comes, and lift. */
+  async hold(key: string, kind: Note["kind"]): Promise<void> {
+    await this.#again(`hold ${key}`, async () => {
+      const before = await this.#keypad.note();
+      await this.press(key);
+      const note = await this.#keypad.nextNote(before);
+      await this.lift(key);
+      return note.kind === kind;
+    });
+  }
+
+  /** Press a key, slide off it by this way, and lift there; `kind` is what that must lead to. */
+  async drag(key: string, by: { readonly xMm: number; readonly yMm: number }, kind?: Note["kind"]): Promise<void> {
+    await this.#again(`drag from ${key}`, async () => {
+      const before = await this.#keypad.note();
+      const from = await this.#keypad.place(key);
+      await this.press(key);
+      const at = (share: number, forceN: number): Played => ({ ...from, xMm: from.xMm + share * by.xMm, yMm: from.yMm + share * by.yMm, forceN });
+      for (const share of [0.3, 0.6, 1]) this.#hand.play(at(share, 1));
+      await this.#keypad.expectKey(key, "plain");
+      this.#hand.play(at(1, 0));
+      return kind === undefined || (await this.#keypad.nextNote(before)).kind === kind;
+    });
+  }
+
+  /** A machine without time to spare cuts touches, as it should: they are cancelled, and a person would try again. */
+  async #again(what: string, act: () => Promise<boolean>): Promise<void> {
+    for (let i = 0; i < TRIES; i += 1) if (await act()) return;
+    throw new Error(`tried ${TRIES} times to ${what}; last: ${JSON.stringify(await this.#keypad.note())}`);
   }
 
   end(): void {
