@@ -17,30 +17,8 @@ const ROOM_MM: Readonly<Record<Surface, Point>> = {
 /**
  * Keys in rows, the first row on top and each row from left to right as the wearer sees them.
  *
- * `xMm`, `yMm` is the centre in the host frame, `pitchMm` the distance of neighbouring keys, `gapMm` the skin between them.
+ * `xMm`, `yMm` is the centre in the host frame, `pitchMm` the distance of neighbouring keys, `gapMm` the skin between them (2 mm).
  */
-export interface SkinKeypad {
-  readonly name: string;
-  readonly surface: Surface;
-  readonly host: Handedness;
-  readonly rows: readonly (readonly string[])[];
-  readonly xMm: number;
-  readonly yMm: number;
-  readonly pitchMm: number;
-  readonly gapMm: number;
-  readonly reading: Reading;
-  readonly slopMm: number;
-  /** The wearer's right and up in the host frame. */
-  readonly axes: ReadingAxes;
-  /** One button for each key, in reading order, named `<keypad>/<key>`. */
-  readonly keys: readonly SkinKey[];
-}
-
-export interface SkinKey extends SkinButton {
-  readonly key: string;
-  readonly centreMm: Point;
-}
-
 export interface KeypadMeasures {
   readonly name: string;
   readonly surface: Surface;
@@ -50,8 +28,20 @@ export interface KeypadMeasures {
   readonly yMm: number;
   readonly pitchMm: number;
   readonly gapMm?: number;
-  readonly reading?: Reading | null;
+  readonly reading?: Reading;
   readonly slopMm?: number;
+}
+
+export interface SkinKeypad extends Required<KeypadMeasures> {
+  /** The wearer's right and up in the host frame. */
+  readonly axes: ReadingAxes;
+  /** One button for each key, in reading order, named `<keypad>/<key>`. */
+  readonly keys: readonly SkinKey[];
+}
+
+export interface SkinKey extends SkinButton {
+  readonly key: string;
+  readonly centreMm: Point;
 }
 
 /** A keypad; throws `LayoutError` when keys repeat, are too small or do not fit the limb. */
