@@ -11,7 +11,7 @@ import type { Subscription } from "./listeners/registry.js";
 import { METHODS, type ErrorEvent, type TrackingState } from "./listeners/touch_listener.js";
 import { EVENT_TYPES, GATE_REASONS } from "./wire/enums.js";
 import type { ClientBody } from "./wire/messages.js";
-import { noAnswerAt, sameOrigin, systemClock, type Clock, type SocketConstructor } from "./platform.js";
+import { checkAddress, noAnswerAt, sameOrigin, systemClock, type Clock, type SocketConstructor } from "./platform.js";
 
 const SUBPROTOCOL = "egotouch.v1.pb";
 const TICK_MS = 50;
@@ -79,6 +79,7 @@ export class EgoTouchClient extends Listeners {
 
   constructor(options: ClientOptions = {}) {
     super();
+    if (options.url !== undefined) checkAddress(options.url);
     this.#options = options;
     this.#clock = options.clock ?? systemClock;
     this.#subscribe = options.subscribe ?? {};
@@ -250,8 +251,11 @@ export class EgoTouchClient extends Listeners {
     this.#effects.push(...effects);
     if (this.#isRunning) return;
     this.#isRunning = true;
-    for (let effect = this.#effects.shift(); effect; effect = this.#effects.shift()) this.#perform(effect);
-    this.#isRunning = false;
+    try {
+      for (let effect = this.#effects.shift(); effect; effect = this.#effects.shift()) this.#perform(effect);
+    } finally {
+      this.#isRunning = false;
+    }
   }
 
   #perform(effect: Effect): void {
@@ -297,7 +301,14 @@ export class EgoTouchClient extends Listeners {
   #open(): void {
     const WebSocketClass = this.#options.WebSocket ?? (globalThis.WebSocket as SocketConstructor | undefined);
     if (!WebSocketClass) throw new EgoTouchError("config", "there is no WebSocket here", "Pass the option WebSocket, such as that of the package ws");
-    const socket = new WebSocketClass(this.#options.url ?? sameOrigin(), SUBPROTOCOL) as WebSocket;
+    let socket: WebSocket;
+    try {
+      socket = new WebSocketClass(this.#options.url ?? sameOrigin(), SUBPROTOCOL) as WebSocket;
+    } catch (error) {
+      if (error instanceof EgoTouchError) throw error;
+      this.#run(this.#session.closed(1006, "", this.#clock.nowMs())); // browsers refuse ws:// from some https pages right here
+      return;
+    }
     socket.binaryType = "arraybuffer";
     this.#socket = socket;
     const ifCurrent = (work: () => Effect[]) => socket === this.#socket && this.#run(work());

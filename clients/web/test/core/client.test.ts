@@ -219,3 +219,32 @@ test("every event carries its latency by the server's clock", () => {
   expect(client.clockUncertaintyMs).toBeCloseTo(0, 3);
   expect(client.serverTimeMs).toBeCloseTo(server.clock.nowMs() + 7_000_000, 3);
 });
+
+describe("an address", () => {
+  test.each(["", "localhost:8765", "http://host/", "ws://"])("such as %j is refused at once", (url) => {
+    expect(() => new EgoTouchClient({ url })).toThrow("is no address of a server. Give one such as ws://localhost:8765/");
+  });
+
+  test("that the browser itself refuses is tried again, with a hint", () => {
+    const server = new FakeServer();
+    class Refusing {
+      constructor() {
+        throw new DOMException("insecure", "SecurityError");
+      }
+    }
+    const client = new EgoTouchClient(server.options({ WebSocket: Refusing }));
+    client.start();
+    expect([client.state, client.detail]).toEqual(["disconnected", "No server answers at this address. Is `egotouch serve` running? Trying again …"]);
+    client.stop();
+  });
+
+  test("where there is no WebSocket at all is told to the caller, and starting again works", () => {
+    const client = new EgoTouchClient({ url: "ws://localhost:1/", WebSocket: undefined as never });
+    const { WebSocket } = globalThis;
+    vi.stubGlobal("WebSocket", undefined);
+    expect(() => client.start()).toThrow("Pass the option WebSocket");
+    expect(() => client.start()).toThrow("Pass the option WebSocket");
+    client.stop();
+    vi.stubGlobal("WebSocket", WebSocket);
+  });
+});

@@ -49,6 +49,26 @@ test("it runs in Node by plain imports, with one package besides", async () => {
   expect(Object.keys(packages).sort()).toEqual(["", "node_modules/@bufbuild/protobuf", "node_modules/@egotouch/client"]);
 });
 
+test("the examples of the README are right", async () => {
+  const blocks = [...readFileSync(join(WEB, "README.md"), "utf8").matchAll(/```ts\n(.*?)```/gs)].map(([, code]) => code!);
+  expect(blocks).toHaveLength(3);
+  const given = `
+import { EgoTouchClient } from "@egotouch/client";
+import { attachPointerEvents } from "@egotouch/client/dom";
+import { FakeServer } from "@egotouch/client/testing";
+declare function startMyApp(client: EgoTouchClient): void;
+`;
+  const [first, ...others] = blocks;
+  writeFileSync(join(project, "readme0.ts"), first!);
+  others.forEach((code, i) => {
+    const declared = code.includes("const client") ? "" : "declare const client: EgoTouchClient;\n";
+    
+    writeFileSync(join(project, `readme${i + 1}.ts`), given + declared + code);
+  });
+  const args = ["--noEmit", "--strict", "--target", "es2022", "--lib", "es2022,dom", "--module", "nodenext"];
+  expect(await run(process.execPath, [TSC, ...args, "readme0.ts", "readme1.ts", "readme2.ts"])).toBe("");
+});
+
 test.each(["nodenext", "bundler"])("it has types, as seen with the module resolution %s", async (resolution) => {
   // What WebXR is, its own types say: with the module webxr, apps install @types/webxr.
   const app = APP.replace(/^.*webxr.*$/m, "").replace(", typeof anchorFromXRHand", "");
