@@ -308,7 +308,20 @@ def test_the_page_comes_with_its_headers() -> None:
     run(test())
 
 
-@pytest.mark.parametrize("path", ["/nothing", "/../client.py", "/%2e%2e/client.py", "//etc/passwd", "/__init__.py"])
+def test_the_keypad_is_a_folder_of_its_own() -> None:
+    async def test() -> None:
+        async with running_server() as server:
+            status, head, _ = await get(server, "/keypad")
+            assert status == 308 and head.endswith("Location: /keypad/")
+            assert (await get(server, "/keypad/"))[0] == 200
+            assert "text/javascript" in (await get(server, "/keypad/keypad.js"))[1]
+
+    run(test())
+
+
+@pytest.mark.parametrize(
+    "path", ["/nothing", "/keypad/nothing", "//keypad", "/../client.py", "/%2e%2e/client.py", "//etc/passwd", "/__init__.py"]
+)
 def test_only_the_page_is_served(path: str) -> None:
     async def test() -> None:
         async with running_server() as server:

@@ -37,6 +37,8 @@ describe.skipIf(!chromiumPath())("the skin keypad in an emulated headset", { ret
   test("has its keys on the palm of the tracked hand, wherever that goes", async () => {
     await holdPalm();
     await shown(() => egotouch.scene!.isShown, "the keys on the palm");
+    const tracked = await keypad.page.evaluate(() => headset.activeSession!.inputSources.map(({ handedness, hand }) => [handedness, hand?.size]));
+    expect(tracked).toEqual(expect.arrayContaining([["left", 25], ["right", 25]]));
     const [wrist, knuckle] = (await joints(keypad.page, "left", "wrist", "middle-finger-phalanx-proximal")) as [Vec3, Vec3];
     const five = await keyPlace(keypad.page, "5");
     // In the middle of the hand, on the palm's side of its bones.
