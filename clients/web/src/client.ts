@@ -1,14 +1,14 @@
 // The client that apps use: a WebSocket and a timer around the session, and listeners behind it.
 
-import { Session, type ConnectionState, type Effect, type Subscribe } from "./core/session.js";
+import type { ConnectionState, Effect, Subscribe } from "./core/effects.js";
+import { Session } from "./core/session.js";
 import { EgoTouchError } from "./errors.js";
 import { isStream, type EventType, type TouchBatch, type TouchEvent } from "./events.js";
-import type { HandsView, Status, Warning, Welcome } from "./gen/egotouch/v1/egotouch_pb.js";
+import type { Status, Welcome } from "./gen/egotouch/v1/egotouch_pb.js";
+import { ConnectionListeners, type StateEvent } from "./listeners/connection_listeners.js";
 import { EventQueue } from "./listeners/event_queue.js";
 import { accepting, type EventFilter } from "./listeners/filters.js";
-import { Listeners, type Listener } from "./listeners/listeners.js";
-import type { Subscription } from "./listeners/registry.js";
-import { METHODS, type ErrorEvent, type TrackingState } from "./listeners/touch_listener.js";
+import { METHODS, type TrackingState } from "./listeners/touch_listener.js";
 import { EVENT_TYPES, GATE_REASONS } from "./wire/enums.js";
 import type { ClientBody } from "./wire/messages.js";
 import { checkAddress, noAnswerAt, sameOrigin, systemClock, type Clock, type SocketConstructor } from "./platform.js";
@@ -56,13 +56,7 @@ export interface ClientStats {
   readonly listenerErrors: number;
 }
 
-/** What the connection is, with one sentence for the user. */
-export interface StateEvent {
-  readonly state: ConnectionState;
-  readonly detail: string;
-}
-
-export class EgoTouchClient extends Listeners {
+export class EgoTouchClient extends ConnectionListeners {
   readonly #session: Session;
   readonly #options: ClientOptions;
   readonly #clock: Clock;
@@ -173,55 +167,6 @@ export class EgoTouchClient extends Listeners {
     return this.#socket?.bufferedAmount ?? 0;
   }
 
-  /** All events of one camera frame together, late and local ones too; see their marks. */
-  onBatch(listener: Listener<TouchBatch>): Subscription {
-    return this.registry.add("onBatch", listener);
-  }
-
-  onState(listener: Listener<StateEvent>): Subscription {
-    return this.registry.add("onState", listener);
-  }
-
-  onWelcome(listener: Listener<Welcome>): Subscription {
-    return this.registry.add("onWelcome", listener);
-  }
-
-  /** The server's own figures, about once a second. */
-  onStatus(listener: Listener<Status>): Subscription {
-    this.#wantStatus();
-    return this.registry.add("onStatus", listener);
-  }
-
-  /** Other hands are seen than before, or the gate has opened or closed. */
-  onTrackingChanged(listener: Listener<TrackingState>): Subscription {
-    this.#wantStatus();
-    return this.registry.add("onTrackingChanged", listener);
-  }
-
-  /** Landmarks of the hands in view, where `subscribe` asks for `landmarks` and the server allows it. */
-  onHands(listener: Listener<HandsView>): Subscription {
-    return this.registry.add("onHands", listener);
-  }
-
-  onWarning(listener: Listener<Warning>): Subscription {
-    return this.registry.add("onWarning", listener);
-  }
-
-  /** The server wants a token or a pairing code: get one, then call `start({ token })` or `start({ pairingCode })`. */
-  onAccessWanted(listener: Listener<string>): Subscription {
-    return this.registry.add("onAccessWanted", listener);
-  }
-
-  /** The token that a pairing code was exchanged for; keep it for the next start. */
-  onToken(listener: Listener<string>): Subscription {
-    return this.registry.add("onToken", listener);
-  }
-
-  /** A listener has thrown, the server sent nonsense, or (with `debug`) the event grammar was broken. */
-  onError(listener: Listener<ErrorEvent>): Subscription {
-    return this.registry.add("onError", listener);
-  }
-
   /** Events as an async iterator, until `signal` aborts, the loop is left or the client stops. Moves merge while the loop is busy. */
   events(options: EventFilter & { readonly types?: readonly EventType[]; readonly signal?: AbortSignal } = {}): AsyncIterableIterator<TouchEvent> {
     const unknown = options.types?.find((type) => !EVENT_TYPES.names.includes(type));
@@ -242,7 +187,7 @@ export class EgoTouchClient extends Listeners {
     return queue;
   }
 
-  #wantStatus(): void {
+  protected override wantStatus(): void {
     if (!this.#subscribe.status) this.subscribe({ ...this.#subscribe, status: true });
   }
 

@@ -1,8 +1,9 @@
-export { EgoTouchClient, type ClientOptions, type ClientStats, type StateEvent } from "./client.js";
-export type { ConnectionState, Subscribe } from "./core/session.js";
+export { EgoTouchClient, type ClientOptions, type ClientStats } from "./client.js";
+export type { ConnectionState, Subscribe } from "./core/effects.js";
 export { GrammarVerifier, type Violation } from "./core/verifier.js";
 export { EgoTouchError, type ErrorCode } from "./errors.js";
 export * from "./events.js";
+export type { StateEvent } from "./listeners/connection_listeners.js";
 export type { EventFilter } from "./listeners/filters.js";
 export type { Subscription } from "./listeners/registry.js";
 export type { HandsView, Status, Warning, Welcome } from "./gen/egotouch/v1/egotouch_pb.js";

@@ -9,16 +9,15 @@
 import type { MessageInitShape } from "@bufbuild/protobuf";
 import { EgoTouchError } from "../errors.js";
 import type { TouchBatch } from "../events.js";
-import type {
-  EventBatch, HandsView, HelloSchema, ServerMessage, Status, SubscribeSchema, Warning, Welcome,
-} from "../gen/egotouch/v1/egotouch_pb.js";
+import type { EventBatch, HelloSchema, ServerMessage, Welcome } from "../gen/egotouch/v1/egotouch_pb.js";
 import { decodeServerMessage, encodeClientMessage, type ClientBody } from "../wire/messages.js";
 import { readEvents } from "../wire/read_event.js";
 import { BackOff } from "./back_off.js";
 import { ClockOffset, millisecondsOf, nanosecondsOf } from "./clock_offset.js";
 import { closeAdvice } from "./close_codes.js";
+import type { ConnectionState, Effect, SessionOptions, Subscribe } from "./effects.js";
 import { OpenPointers } from "./open_pointers.js";
-import { GrammarVerifier, type Violation } from "./verifier.js";
+import { GrammarVerifier } from "./verifier.js";
 
 /** This much silence ends every contact, and everything that a lost connection left open. */
 export const SILENCE_MS = 300;
@@ -30,40 +29,6 @@ const TICKS_OF_SILENCE = 2;
 const PROBES_AT_START = 8;
 const FIRST_PROBES_EVERY_MS = 100;
 const PROBE_EVERY_MS = 1000;
-
-export type ConnectionState = "disconnected" | "connecting" | "live" | "stale";
-/** What to send; empty or absent lists mean everything. */
-export type Subscribe = MessageInitShape<typeof SubscribeSchema>;
-
-export interface SessionOptions {
-  /** Name and version of the app in the Hello. */
-  readonly name: string;
-  readonly version: string;
-  readonly subscribe: Subscribe;
-  /** Check the event grammar. */
-  readonly debug: boolean;
-  /** An event older than this on arrival does not act; null takes the server's own limit. */
-  readonly inputTtlMs: number | null;
-  readonly random: () => number;
-  /** What to tell the user when no connection could be made. */
-  readonly noAnswer?: string;
-}
-
-/** What the shell has to do, and what the app is told, in this order. */
-export type Effect =
-  | { readonly kind: "open" }
-  | { readonly kind: "send"; readonly data: Uint8Array<ArrayBuffer> }
-  | { readonly kind: "close" }
-  | { readonly kind: "state"; readonly state: ConnectionState; readonly detail: string }
-  | { readonly kind: "welcome"; readonly welcome: Welcome }
-  | { readonly kind: "token"; readonly token: string }
-  | { readonly kind: "access"; readonly reason: string }
-  | { readonly kind: "batch"; readonly batch: TouchBatch }
-  | { readonly kind: "status"; readonly status: Status }
-  | { readonly kind: "hands"; readonly hands: HandsView }
-  | { readonly kind: "warning"; readonly warning: Warning }
-  | { readonly kind: "violation"; readonly violation: Violation }
-  | { readonly kind: "error"; readonly error: EgoTouchError };
 
 type Link = "none" | "opening" | "open";
 

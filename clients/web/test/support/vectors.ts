@@ -2,7 +2,8 @@
 
 import { readFileSync, readdirSync } from "node:fs";
 import { fileURLToPath } from "node:url";
-import { Session, type Effect } from "../../src/core/session.js";
+import type { Effect } from "../../src/core/effects.js";
+import { Session } from "../../src/core/session.js";
 import type { TouchEvent } from "../../src/events.js";
 import { METHODS } from "../../src/listeners/touch_listener.js";
 
