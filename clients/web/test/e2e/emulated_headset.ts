@@ -14,11 +14,13 @@ declare global {
 /** WebGL without a graphics card, and a page small enough for it. */
 export const WEBGL_ARGUMENTS = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"];
 export const SMALL = { width: 400, height: 300 };
-export const SCRIPTS = [
+
+/** A Quest 3 in the page, with this kind of session only: the real world behind the picture, or none. */
+export const headsetScripts = (mode: "immersive-ar" | "immersive-vr"): ({ path: string } | { content: string })[] => [
   { path: fileURLToPath(new URL("../../node_modules/iwer/build/iwer.min.js", import.meta.url)) },
   {
     content: `if (globalThis.IWER) {
-      globalThis.headset = new IWER.XRDevice({ ...IWER.metaQuest3, supportedSessionModes: ["inline", "immersive-vr"] }, { fovy: 0.6 });
+      globalThis.headset = new IWER.XRDevice({ ...IWER.metaQuest3, supportedSessionModes: ["inline", "${mode}"] }, { fovy: 0.6 });
       headset.installRuntime({ forceInstall: true });
       headset.primaryInputMode = "hand";
       headset.position.set(0, 1.6, 0);

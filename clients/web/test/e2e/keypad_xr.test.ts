@@ -3,7 +3,7 @@ import { afterAll, afterEach, beforeAll, beforeEach, describe, expect, test } fr
 import { dot, length, minus, plus, times, type Vec3 } from "../../src/webxr/vectors.js";
 import { chromiumPath, launch } from "../support/browser.js";
 import { PythonServer } from "../support/python_server.js";
-import { hold, joints, keyPlace, SCRIPTS, SMALL, WEBGL_ARGUMENTS } from "./emulated_headset.js";
+import { headsetScripts, hold, joints, keyPlace, SMALL, WEBGL_ARGUMENTS } from "./emulated_headset.js";
 import { KeypadPage, SkinFinger, until } from "./keypad_page.js";
 
 /** The left palm before the wearer's eyes, fingers up, as one holds a phone. */
@@ -19,9 +19,7 @@ describe.skipIf(!chromiumPath())("the skin keypad in an emulated headset", { ret
   beforeEach(async () => {
     server = new PythonServer(["simulate", "--keypad", "--no-browser"]);
     await server.start();
-    keypad = await KeypadPage.open(browser, server, { viewport: SMALL }, SCRIPTS);
-    await keypad.page.locator("#headset:not([hidden])").click();
-    await shown(() => egotouch.scene?.skin.limb != null, "the session with a tracked hand");
+    await enter("immersive-vr");
     finger = await SkinFinger.on(server, keypad);
   });
   afterEach(async () => {
@@ -30,6 +28,11 @@ describe.skipIf(!chromiumPath())("the skin keypad in an emulated headset", { ret
     await keypad.close();
   });
 
+  const enter = async (mode: "immersive-ar" | "immersive-vr"): Promise<void> => {
+    keypad = await KeypadPage.open(browser, server, { viewport: SMALL }, headsetScripts(mode));
+    await keypad.page.locator("#headset:not([hidden])").click();
+    await shown(() => egotouch.scene?.skin.limb != null, "the session with a tracked hand");
+  };
   const shown = (condition: () => boolean, what: string): Promise<void> =>
     until(async () => keypad.page.evaluate(condition), async () => what);
   const holdPalm = (at: Vec3 = PALM.place): Promise<void> => hold(keypad.page, "left", PALM.thumb, PALM.fingers, PALM.palm, at);
@@ -92,5 +95,18 @@ describe.skipIf(!chromiumPath())("the skin keypad in an emulated headset", { ret
     await hold(keypad.page, "left", [1, 0, 0], PALM.fingers, times(PALM.palm, -1), PALM.place);
     await shown(() => !egotouch.scene!.isShown && egotouch.scene!.skin.limb !== null, "the keys to hide behind the hand");
     await keypad.expectNumber("");
+  });
+
+  test("lies over the real hand where the headset shows it, and draws no hands then", async () => {
+    await keypad.close();
+    await enter("immersive-ar");
+    expect(await keypad.page.locator("#headset").textContent()).toBe("Show it on my hand");
+    await holdPalm();
+    await shown(() => egotouch.scene!.isShown, "the keys on the palm");
+    expect(await keypad.page.evaluate(() => [egotouch.scene!.background, headset.activeSession!.environmentBlendMode])).toEqual([null, "alpha-blend"]);
+    finger.end();
+    finger = await SkinFinger.on(server, keypad);
+    await finger.tap("3");
+    await keypad.expectNumber("3");
   });
 });
