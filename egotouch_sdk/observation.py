@@ -153,15 +153,21 @@ class HostPoint:
 
 @dataclass(frozen=True, slots=True)
 class TouchEstimate:
-    """The touch model's answer for one fingertip in one frame: probability 0..1 and force in newtons, 0..3.5."""
+    """The touch model's answer for one fingertip in one frame: probability 0..1 and force in newtons, 0..3.5.
+
+    `force_sigma_n` is the standard error of the force if it is a touch, None when the model gives none.
+    """
 
     hand_id: int
     finger: Finger
     touch_probability: float
     force_n: float
+    force_sigma_n: float | None = None
 
     def __post_init__(self) -> None:
         if not 0.0 <= self.touch_probability <= 1.0:
             raise FrameError(f"touch_probability is {self.touch_probability}, need 0..1")
         if not 0.0 <= self.force_n <= FORCE_MAX_N:
             raise FrameError(f"force_n is {self.force_n}, need 0..{FORCE_MAX_N}")
+        if self.force_sigma_n is not None and not 0.0 <= self.force_sigma_n < float("inf"):
+            raise FrameError(f"force_sigma_n is {self.force_sigma_n}, need 0 or more, or None")

@@ -3,6 +3,7 @@
 The output for a frame is the median of that frame and the two before it, which is the centred median of the frame before: a
 touch and a lift both show one frame late, and a single wrong frame never shows. Scores are therefore taken against the
 frame's own ground truth, with that one frame of delay included.
+The standard error of the force stays that of the newest frame: the errors of neighbouring frames are alike and do not average out.
 Before its first frame a finger counts as not touching (probability 0, force 0), so a single frame is no touch either.
 """
 
@@ -55,7 +56,7 @@ class MedianFilter:
         history.forces_n.append(estimate.force_n)
         history.missing_frames = 0
         middle = WINDOW // 2
-        return TouchEstimate(*key, sorted(history.probabilities)[middle], sorted(history.forces_n)[middle])
+        return TouchEstimate(*key, sorted(history.probabilities)[middle], sorted(history.forces_n)[middle], estimate.force_sigma_n)
 
     def reset(self) -> None:
         """Forget every finger; afterwards the filter behaves like a new one."""

@@ -155,6 +155,7 @@ class TouchStateMachine:
             surface=point.surface,
             touch_probability=sample.touch_probability,
             force_n=sample.force_n if event_type in _WITH_FORCE else 0.0,
+            force_sigma_n=sample.force_sigma_n if event_type in _WITH_FORCE else None,
             x_mm=point.x_mm,
             y_mm=point.y_mm,
             dx_mm=0.0 if is_hover else point.x_mm - down.x_mm,

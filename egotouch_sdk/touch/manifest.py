@@ -11,6 +11,8 @@ from egotouch_sdk.model_store import read_manifest
 
 INPUTS = {"patch": ("N", 3, 100, 100), "polar": ("N", 2)}
 OUTPUTS = {"touch_logit": ("N",), "force_n": ("N",)}
+#: A model may also tell the standard error of its force.
+FORCE_SIGMA = "force_sigma_n"
 
 _HINT = "Give the .onnx file of an egotouch touch model with its .json manifest beside it"
 
@@ -49,7 +51,7 @@ class TouchManifest:
 def check_signature(path: Path, inputs: dict[str, tuple[Any, ...]], outputs: dict[str, tuple[Any, ...]]) -> None:
     """Raise `ModelError` unless a network's inputs and outputs are those of a touch model; a free axis may have any name."""
     for found, needed, kind in ((inputs, INPUTS, "inputs"), (outputs, OUTPUTS, "outputs")):
-        if set(found) != set(needed):
+        if set(found) - {FORCE_SIGMA} != set(needed):
             raise ModelError(f"{path} has {kind} {sorted(found)}, a touch model has {sorted(needed)}", hint=_HINT)
         for name, shape in needed.items():
             fits = len(found[name]) == len(shape) and all(want in ("N", have) for have, want in zip(found[name], shape, strict=True))

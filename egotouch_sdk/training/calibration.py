@@ -11,10 +11,10 @@ import numpy.typing as npt
 NEWTON_STEPS = 25
 #: Pulls the fit towards 0, so that perfectly separated classes do not send it to infinity.
 RIDGE = 1e-3
-#: Share of touches among the frames that pass the gate (125,656 of 307,500; EgoTouch, UIST'24, section 5): thresholds are placed for it.
-TOUCH_SHARE = 0.41
-#: Thresholds looked at.
-GRID = np.linspace(0.05, 0.95, 181)
+#: Share of hovers that may pass for touches where a touch begins: the goal for false positives in the study (5.6 % in EgoTouch, UIST'24).
+FALSE_TOUCH_SHARE = 0.026
+#: A touch never begins below or above these probabilities, however well or badly the classes are separated (our choice).
+DOWN_RANGE = (0.5, 0.95)
 #: A touch ends where its probability falls this far below the threshold that began it, on the logit scale (our choice).
 HYSTERESIS_LOGITS = 0.8
 
@@ -32,7 +32,7 @@ class Calibration:
 def calibrate(touch: npt.NDArray[np.bool_], logit: npt.NDArray[np.floating]) -> Calibration:
     """Fit scale and shift (Platt) with both classes weighing the same, then place the thresholds.
 
-    `down` is the centre of the probabilities whose accuracy, at the share of touches under the gate, is within half a percent of the best.
+    `down` is the probability that `FALSE_TOUCH_SHARE` of the hovers reach.
     """
     weight = np.where(touch, 0.5 / max(int(touch.sum()), 1), 0.5 / max(int((~touch).sum()), 1))
     scale, shift = _fit_logistic(touch.astype(float), np.asarray(logit, float), weight)
@@ -43,11 +43,7 @@ def calibrate(touch: npt.NDArray[np.bool_], logit: npt.NDArray[np.floating]) -> 
 
 def place_thresholds(touch: npt.NDArray[np.bool_], probability: npt.NDArray[np.floating]) -> tuple[float, float]:
     """The thresholds (down, up) for calibrated probabilities, by the rule of `calibrate`."""
-    found = np.array([(probability[touch] >= t).mean() for t in GRID])
-    refused = np.array([(probability[~touch] < t).mean() for t in GRID])
-    accuracy = TOUCH_SHARE * found + (1 - TOUCH_SHARE) * refused
-    near_best = GRID[accuracy >= accuracy.max() - 0.005]
-    down = round(float((near_best[0] + near_best[-1]) / 2), 4)
+    down = round(float(np.clip(np.quantile(probability[~touch], 1 - FALSE_TOUCH_SHARE), *DOWN_RANGE)), 4)
     up = round(float(1 / (1 + np.exp(-(np.log(down / (1 - down)) - HYSTERESIS_LOGITS)))), 4)
     return down, up
 

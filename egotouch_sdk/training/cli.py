@@ -19,6 +19,7 @@ EXAMPLES = """\
   egotouch train --data data/patches --out out/touch
   egotouch train --data data/patches --out out/touch --resume      after an interruption
   egotouch train --data data/patches --out out/paper --recipe paper
+  egotouch train --data data/others --out out/mean --average out/a/last.ckpt out/b/last.ckpt
   egotouch train --data data/study --out out/folds --folds 5            leave participants out, 5 models
   egotouch train --data data/study --out out/folds --folds 15 --ray auto --gpus 1       on a Ray cluster
   egotouch train --data data/patches --out out/trials --trials trials.toml --jobs 2     compare recipes
@@ -33,7 +34,12 @@ def add_parser(subparsers: Subparsers) -> None:
     parser = add_command(subparsers, "train", "train the touch model on rendered patches", EXAMPLES)
     parser.add_argument("--data", type=Path, required=True, metavar="DIR", help="folder of rendered .npz shards")
     parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="where checkpoint, model, manifest and model card go")
-    parser.add_argument("--recipe", choices=("default", "paper"), default="default", help="our recipe, or the paper's without additions")
+    parser.add_argument(
+        "--recipe",
+        choices=("default", "shipped", "paper"),
+        default="default",
+        help="ours for CPUs (default), the shipped model's for a GPU, or the paper's",
+    )
     parser.add_argument("--epochs", type=positive_int, metavar="N", help="passes over the renders, each with new cameras")
     parser.add_argument(
         "--picture-px", type=positive_int, metavar="N", help="size of the pictures, smaller = faster first stage (default 100)"
@@ -46,6 +52,9 @@ def add_parser(subparsers: Subparsers) -> None:
     begin = parser.add_mutually_exclusive_group()
     begin.add_argument("--resume", action="store_true", help="continue the run whose checkpoint is in --out")
     begin.add_argument("--start-from", type=Path, metavar="CKPT", help="start from the weights of another run's checkpoint")
+    begin.add_argument(
+        "--average", type=Path, nargs="+", metavar="CKPT", help="no training: the mean of these runs' weights, calibrated on all of --data"
+    )
     begin.add_argument("--folds", type=positive_int, metavar="K", help="K runs that leave out groups of participants; writes folds.json")
     begin.add_argument("--trials", type=Path, metavar="FILE.toml", help="one run for each recipe in the file, and a table of scores")
     parser.add_argument("--jobs", type=positive_int, default=1, metavar="N", help="folds or trials at a time on this machine (default 1)")
@@ -63,7 +72,7 @@ def train(options: argparse.Namespace) -> int:
         raise MissingExtraError("training", "train") from missing
     from dataclasses import replace
 
-    recipe = Recipe.paper() if options.recipe == "paper" else Recipe()
+    recipe = {"default": Recipe, "shipped": Recipe.shipped, "paper": Recipe.paper}[options.recipe]()
     chosen = {"epochs": options.epochs, "learning_rate": options.learning_rate, "picture_px": options.picture_px, "seed": options.seed}
     recipe = replace(recipe, **{name: value for name, value in chosen.items() if value is not None})
     machine = Machine(options.threads, options.workers, options.max_minutes)
@@ -71,6 +80,12 @@ def train(options: argparse.Namespace) -> int:
         return _train_many(options, recipe, machine)
     if options.ray or options.jobs > 1:
         raise ConfigError("--ray and --jobs are for --folds and --trials", hint="A single run uses one machine")
+    if options.average:
+        from egotouch_sdk.training.average import average
+
+        path = average(options.average, options.data, options.out, recipe.seed)
+        sys.stdout.write(f"model written to {path}\n")
+        return 0
     path = run(options.data, options.out, recipe, machine, resume=options.resume, start_from=options.start_from)
     sys.stdout.write(f"model written to {path}\n")
     return 0

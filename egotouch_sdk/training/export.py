@@ -14,6 +14,7 @@ import torch
 
 from egotouch_sdk.errors import ModelError
 from egotouch_sdk.observation import PATCH_PX
+from egotouch_sdk.touch.manifest import FORCE_SIGMA, OUTPUTS
 from egotouch_sdk.training.model_card import CARD_FILE, MANIFEST_FILE, model_card
 from egotouch_sdk.training.network import TouchNetwork, count_parameters, reparameterise
 
@@ -26,6 +27,7 @@ PARITY_TOLERANCE = 1e-4
 #: Patches in the golden pair.
 GOLDEN_SIZE = 4
 ONNX_OPSET = 17
+OUTPUT_NAMES = (*OUTPUTS, FORCE_SIGMA)
 
 
 @dataclass(frozen=True)
@@ -58,7 +60,8 @@ def write_model(network: TouchNetwork, facts: ModelFacts, folder: Path) -> Path:
     expected = run_torch(network, patch, polar)
     write_onnx(reparameterise(network), path)
     check_parity(path, patch, polar, expected)
-    np.savez_compressed(folder / GOLDEN_FILE, patch=patch, polar=polar, touch_logit=expected[0], force_n=expected[1])
+    golden: dict[str, Any] = {"patch": patch, "polar": polar, **dict(zip(OUTPUT_NAMES, expected, strict=True))}
+    np.savez_compressed(folder / GOLDEN_FILE, **golden)
     manifest = build_manifest(network, facts, path)
     (folder / MANIFEST_FILE).write_text(json.dumps(manifest, indent=2) + "\n")
     (folder / CARD_FILE).write_text(model_card(manifest))
@@ -73,18 +76,16 @@ def golden_inputs() -> tuple[npt.NDArray[np.float32], npt.NDArray[np.float32]]:
     return patch, polar
 
 
-def run_torch(
-    network: TouchNetwork, patch: npt.NDArray[np.float32], polar: npt.NDArray[np.float32]
-) -> tuple[npt.NDArray[np.float32], npt.NDArray[np.float32]]:
-    """The network's outputs `touch_logit` (N,) and `force_n` (N,) in evaluation mode; its own mode is restored."""
+def run_torch(network: TouchNetwork, patch: npt.NDArray[np.float32], polar: npt.NDArray[np.float32]) -> tuple[npt.NDArray[np.float32], ...]:
+    """The network's three outputs, (N,) each, in evaluation mode; its own mode is restored."""
     training = network.training
     network.eval()
     try:
         with torch.no_grad():
-            logit, force = network(torch.from_numpy(patch), torch.from_numpy(polar))
+            outputs = network(torch.from_numpy(patch), torch.from_numpy(polar))
     finally:
         network.train(training)
-    return logit.numpy(), force.numpy()
+    return tuple(output.numpy() for output in outputs)
 
 
 def write_onnx(folded: TouchNetwork, path: Path) -> None:
@@ -96,8 +97,8 @@ def write_onnx(folded: TouchNetwork, path: Path) -> None:
         example,
         str(path),
         input_names=["patch", "polar"],
-        output_names=["touch_logit", "force_n"],
-        dynamic_axes=dict.fromkeys(("patch", "polar", "touch_logit", "force_n"), batch),
+        output_names=list(OUTPUT_NAMES),
+        dynamic_axes=dict.fromkeys(("patch", "polar", *OUTPUT_NAMES), batch),
         opset_version=ONNX_OPSET,
         dynamo=False,
     )
@@ -107,14 +108,14 @@ def check_parity(
     path: Path,
     patch: npt.NDArray[np.float32],
     polar: npt.NDArray[np.float32],
-    expected: tuple[npt.NDArray[np.float32], npt.NDArray[np.float32]],
+    expected: tuple[npt.NDArray[np.float32], ...],
 ) -> None:
     """Raise `ModelError` unless the model file gives the expected outputs for the whole batch and for one patch alone."""
     from egotouch_sdk.inference import create_session
 
     session = create_session(path)
     for count in (len(patch), 1):
-        got = session.run(["touch_logit", "force_n"], {"patch": patch[:count], "polar": polar[:count]})
+        got = session.run(list(OUTPUT_NAMES), {"patch": patch[:count], "polar": polar[:count]})
         worst = max(float(np.abs(g - e[:count]).max()) for g, e in zip(got, expected, strict=True))
         if worst > PARITY_TOLERANCE:
             raise ModelError(f"{path.name} differs from the trained network by {worst:.2g}", hint="Report your torch and onnx versions")
@@ -134,6 +135,7 @@ def build_manifest(network: TouchNetwork, facts: ModelFacts, path: Path) -> dict
         "outputs": {
             "touch_logit": {"dtype": "float32", "shape": ["N"], "meaning": "touch probability is its logistic"},
             "force_n": {"dtype": "float32", "shape": ["N"], "meaning": "newtons, 0..3.5"},
+            "force_sigma_n": {"dtype": "float32", "shape": ["N"], "meaning": "standard error of force_n on touches, newtons"},
         },
         "threshold": {"down": facts.threshold_down, "up": facts.threshold_up},
         "parameters": {

@@ -33,7 +33,6 @@ class TouchModule(lightning.LightningModule):
         self.touch_weight = (1 - touch_share) / touch_share
         self.network = TouchNetwork(recipe.drop_path, recipe.dropout, recipe.mirrored).use_fast_layout()
         self.hover_head = nn.Linear(HIDDEN, 1)
-        self.sigma_head = nn.Linear(HIDDEN, 1)
         self.average = AveragedModel(self.network, multi_avg_fn=get_ema_multi_avg_fn(recipe.average_decay), use_buffers=True)
         self.held_out: list[tuple[Tensor, ...]] = []
 
@@ -50,7 +49,7 @@ class TouchModule(lightning.LightningModule):
     def training_step(self, batch: Sample, _: int) -> Tensor:
         recipe = self.recipe
         hidden = self.network.embed(self.shrink(batch.patch), batch.polar)
-        logit, force_n = self.network.decide(hidden)
+        logit, force_n, sigma_n = self.network.decide(hidden)
         target = batch.touch * (1 - recipe.label_smoothing) + recipe.label_smoothing / 2
         weight = 1 + batch.touch * (self.touch_weight - 1)
         touch_loss = binary_cross_entropy_with_logits(logit, target, weight)
@@ -59,9 +58,7 @@ class TouchModule(lightning.LightningModule):
         if recipe.hover_weight:
             loss = loss + recipe.hover_weight * mse_loss(self.hover_head(hidden)[:, 0], hover_target(batch.hover_mm))
         if recipe.sigma_weight:
-            log_sigma = self.sigma_head(hidden.detach())[:, 0]
-            error = (force_n.detach() - batch.force_n) / FORCE_MAX_N
-            surprise = log_sigma + 0.5 * (error * torch.exp(-log_sigma)) ** 2
+            surprise = torch.log(sigma_n) + 0.5 * ((force_n.detach() - batch.force_n) / sigma_n) ** 2
             loss = loss + recipe.sigma_weight * (batch.touch * surprise).sum() / batch.touch.sum().clamp(min=1)
         self.log("loss", touch_loss, prog_bar=True, on_step=False, on_epoch=True, batch_size=len(logit))
         self.log("force_loss", force_loss, prog_bar=True, on_step=False, on_epoch=True, batch_size=len(logit))
@@ -74,7 +71,7 @@ class TouchModule(lightning.LightningModule):
             self.average.update_parameters(self.network)
 
     def validation_step(self, batch: Sample, _: int) -> None:
-        logit, force_n = self.shipped_network.eval()(self.shrink(batch.patch), batch.polar)
+        logit, force_n, _ = self.shipped_network.eval()(self.shrink(batch.patch), batch.polar)
         self.held_out.append((logit, force_n, batch.touch, batch.force_n))
 
     def on_validation_epoch_end(self) -> None:
@@ -89,8 +86,7 @@ class TouchModule(lightning.LightningModule):
 
     def configure_optimizers(self) -> Any:
         recipe = self.recipe
-        heads = (self.network, self.hover_head, self.sigma_head)
-        learned = [parameter for head in heads for parameter in head.named_parameters()]
+        learned = [*self.network.named_parameters(), *self.hover_head.named_parameters()]
         decayed = [p for name, p in learned if p.ndim > 1 and not name.endswith("scale")]
         plain = [p for name, p in learned if p.ndim <= 1 or name.endswith("scale")]
         groups = [{"params": decayed, "weight_decay": recipe.weight_decay}, {"params": plain, "weight_decay": 0.0}]

@@ -54,6 +54,13 @@ def held_out_report(
     return report
 
 
+def coverage(labels: Sequence[PatchLabel], force_n: npt.NDArray[np.floating], sigma_n: npt.NDArray[np.floating]) -> float:
+    """Share of touches whose force lies within one standard error of the estimate; .68 when the errors are normal and honest."""
+    touch = np.array([label.touch for label in labels])
+    error_n = np.abs(force_n - np.array([label.force_n for label in labels]))
+    return _round((error_n <= sigma_n)[touch].mean())
+
+
 def _by_bin(
     value: npt.NDArray[np.floating], called: npt.NDArray[np.bool_], chosen: npt.NDArray[np.bool_], bins: Sequence[tuple[float, float]]
 ) -> dict[str, float]:

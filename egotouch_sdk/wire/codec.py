@@ -154,6 +154,7 @@ def _fingertip_to_proto(tip: Fingertip, estimate: TouchEstimate) -> pb.Fingertip
         theta_rad=tip.theta_rad,
         touch_probability=estimate.touch_probability,
         force_n=estimate.force_n,
+        force_sigma_n=estimate.force_sigma_n,
     )
 
 
@@ -170,7 +171,8 @@ def _fingertip_from_proto(message: pb.Fingertip) -> Fingertip:
 
 
 def _estimate_from_proto(message: pb.Fingertip) -> TouchEstimate:
-    return TouchEstimate(message.hand_id, enums.FINGERS.member(message.finger), message.touch_probability, message.force_n)
+    sigma_n = message.force_sigma_n if message.HasField("force_sigma_n") else None
+    return TouchEstimate(message.hand_id, enums.FINGERS.member(message.finger), message.touch_probability, message.force_n, sigma_n)
 
 
 def _joints(values: Iterable[float], name: str) -> FloatArray:

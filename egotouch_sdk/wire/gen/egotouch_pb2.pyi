@@ -474,7 +474,7 @@ class TouchPair(_message.Message):
     def __init__(self, touching: _Optional[_Union[Hand, _Mapping]] = ..., host: _Optional[_Union[Hand, _Mapping]] = ..., distance_palms: _Optional[float] = ..., active_fingers: _Optional[_Iterable[_Union[Finger, str]]] = ...) -> None: ...
 
 class Fingertip(_message.Message):
-    __slots__ = ("hand_id", "handedness", "finger", "tip_x_px", "tip_y_px", "px_per_mm", "r_palms", "theta_rad", "touch_probability", "force_n")
+    __slots__ = ("hand_id", "handedness", "finger", "tip_x_px", "tip_y_px", "px_per_mm", "r_palms", "theta_rad", "touch_probability", "force_n", "force_sigma_n")
     HAND_ID_FIELD_NUMBER: _ClassVar[int]
     HANDEDNESS_FIELD_NUMBER: _ClassVar[int]
     FINGER_FIELD_NUMBER: _ClassVar[int]
@@ -485,6 +485,7 @@ class Fingertip(_message.Message):
     THETA_RAD_FIELD_NUMBER: _ClassVar[int]
     TOUCH_PROBABILITY_FIELD_NUMBER: _ClassVar[int]
     FORCE_N_FIELD_NUMBER: _ClassVar[int]
+    FORCE_SIGMA_N_FIELD_NUMBER: _ClassVar[int]
     hand_id: int
     handedness: Handedness
     finger: Finger
@@ -495,7 +496,8 @@ class Fingertip(_message.Message):
     theta_rad: float
     touch_probability: float
     force_n: float
-    def __init__(self, hand_id: _Optional[int] = ..., handedness: _Optional[_Union[Handedness, str]] = ..., finger: _Optional[_Union[Finger, str]] = ..., tip_x_px: _Optional[float] = ..., tip_y_px: _Optional[float] = ..., px_per_mm: _Optional[float] = ..., r_palms: _Optional[float] = ..., theta_rad: _Optional[float] = ..., touch_probability: _Optional[float] = ..., force_n: _Optional[float] = ...) -> None: ...
+    force_sigma_n: float
+    def __init__(self, hand_id: _Optional[int] = ..., handedness: _Optional[_Union[Handedness, str]] = ..., finger: _Optional[_Union[Finger, str]] = ..., tip_x_px: _Optional[float] = ..., tip_y_px: _Optional[float] = ..., px_per_mm: _Optional[float] = ..., r_palms: _Optional[float] = ..., theta_rad: _Optional[float] = ..., touch_probability: _Optional[float] = ..., force_n: _Optional[float] = ..., force_sigma_n: _Optional[float] = ...) -> None: ...
 
 class FrameObservation(_message.Message):
     __slots__ = ("index", "timestamp_ns", "width_px", "height_px", "hands", "gate", "pairs", "fingertips")

@@ -39,7 +39,7 @@ def model_file(network: TouchNetwork, tmp_path_factory: pytest.TempPathFactory) 
 def test_the_file_answers_like_the_network_for_every_batch_size(network: TouchNetwork, model_file: Path, count: int) -> None:
     patch = np.random.default_rng(count).standard_normal((count, 3, 100, 100), np.float32)
     polar = np.random.default_rng(count).random((count, 2), np.float32)
-    got = create_session(model_file).run(["touch_logit", "force_n"], {"patch": patch, "polar": polar})
+    got = create_session(model_file).run(["touch_logit", "force_n", "force_sigma_n"], {"patch": patch, "polar": polar})
     for g, e in zip(got, run_torch(network, patch, polar), strict=True):
         assert g.shape == (count,)
         np.testing.assert_allclose(g, e, atol=1e-4)
@@ -49,13 +49,13 @@ def test_the_written_folder_loads_as_a_touch_model(model_file: Path) -> None:
     manifest = TouchModel(model_file).manifest
     assert (manifest.version, manifest.down_probability, manifest.up_probability) == ("test", 0.5, 0.4)
     card = (model_file.parent / "MODEL_CARD.md").read_text()
-    assert "3,370,896" in card and "4.1 M" in card and "noise" in card
+    assert "3,371,025" in card and "4.1 M" in card and "noise" in card
 
 
 def test_another_networks_file_is_refused(model_file: Path) -> None:
     golden = np.load(model_file.parent / "touch_golden.npz")
     with pytest.raises(ModelError, match="differs"):
-        check_parity(model_file, golden["patch"], golden["polar"], (golden["touch_logit"] + 1, golden["force_n"]))
+        check_parity(model_file, golden["patch"], golden["polar"], (golden["touch_logit"] + 1, golden["force_n"], golden["force_sigma_n"]))
 
 
 @pytest.mark.parametrize(("down", "up"), [(0.5, 0.6), (1.0, 0.5), (0.5, 0.0)])
@@ -66,9 +66,10 @@ def test_impossible_thresholds_are_refused(down: float, up: float) -> None:
 
 def test_the_shipped_file_still_gives_its_golden_outputs() -> None:
     golden = np.load(MODELS_DIR / "touch_golden.npz")
-    check_parity(MODELS_DIR / "touch.onnx", golden["patch"], golden["polar"], (golden["touch_logit"], golden["force_n"]))
+    outputs = golden["touch_logit"], golden["force_n"], golden["force_sigma_n"]
+    check_parity(MODELS_DIR / "touch.onnx", golden["patch"], golden["polar"], outputs)
     parameters = json.loads((MODELS_DIR / "touch.json").read_text())["parameters"]
-    assert (parameters["trained"], parameters["shipped"]) == (3_370_896, 3_338_880)
+    assert (parameters["trained"], parameters["shipped"]) == (3_371_025, 3_339_009)
 
 
 def test_later_figures_join_manifest_and_card(model_file: Path) -> None:

@@ -55,8 +55,8 @@ def test_folding_the_network_keeps_its_outputs_and_drops_every_batch_norm() -> N
 
 def test_parameter_counts() -> None:
     network = TouchNetwork()
-    assert count_parameters(network) == 3_370_896
-    assert count_parameters(reparameterise(network)) == 3_338_880
+    assert count_parameters(network) == 3_371_025
+    assert count_parameters(reparameterise(network)) == 3_339_009
 
 
 def test_the_patch_and_the_place_both_reach_both_outputs() -> None:
@@ -76,6 +76,22 @@ def test_force_is_in_range_only_once_training_is_over() -> None:
         assert network.train()(*inputs())[1].max() > 3.5
 
 
+def test_the_standard_error_is_bounded_and_never_shapes_the_network() -> None:
+    network = lived_in(TouchNetwork())
+    *_, sigma_n = network.train()(*inputs())
+    assert 0.02 < sigma_n.min() and sigma_n.max() <= 3.5
+    sigma_n.sum().backward()
+    assert [name for name, p in network.named_parameters() if p.grad is not None and p.grad.any()] == ["spread.weight", "spread.bias"]
+
+
+def test_mirroring_makes_a_hand_and_its_mirror_image_the_same() -> None:
+    network = lived_in(TouchNetwork(mirrored=True))
+    patch, polar = inputs()
+    with torch.no_grad():
+        for one, other in zip(network(patch, polar), network(patch.flip(3), polar * torch.tensor([1.0, -1.0])), strict=True):
+            torch.testing.assert_close(one, other, atol=1e-5, rtol=1e-4)
+
+
 def test_the_fast_layout_trains_without_changing_the_outputs() -> None:
     network = lived_in(TouchNetwork())
     with torch.no_grad():
@@ -83,6 +99,5 @@ def test_the_fast_layout_trains_without_changing_the_outputs() -> None:
         got = network.use_fast_layout()(*inputs())
     for e, g in zip(expected, got, strict=True):
         torch.testing.assert_close(g, e, atol=1e-4, rtol=1e-4)
-    logit, force = network.train()(*inputs())
-    (logit.sum() + force.sum()).backward()
+    sum(output.sum() for output in network.train()(*inputs())).backward()
     assert all(p.grad is not None and torch.isfinite(p.grad).all() for p in network.parameters())

@@ -9,8 +9,9 @@ pytest.importorskip("onnx")
 
 from egotouch_sdk.errors import ConfigError, SourceError  # noqa: E402
 from egotouch_sdk.touch import TouchModel  # noqa: E402
+from egotouch_sdk.training.average import average, mean_state  # noqa: E402
 from egotouch_sdk.training.recipe import Recipe  # noqa: E402
-from egotouch_sdk.training.run import Machine, Split, train  # noqa: E402
+from egotouch_sdk.training.run import Machine, Split, averaged_state, train  # noqa: E402
 from egotouch_sdk.training.shards import read_folder  # noqa: E402
 
 pytestmark = [
@@ -37,6 +38,14 @@ def test_train_export_and_resume(shard_folder: Path, tmp_path: Path, monkeypatch
     fresh = tmp_path / "fresh"
     train(shard_folder, fresh, TINY, machine, start_from=tmp_path / "last.ckpt")
     assert (fresh / "touch.onnx").is_file()
+
+    runs = [tmp_path / "last.ckpt", fresh / "last.ckpt"]
+    mean = json.loads(average(runs, shard_folder, tmp_path / "mean", seed=1).with_suffix(".json").read_text())
+    assert mean["training"]["averaged_runs"] == 2 and mean["training"]["run_1"]["steps_done"] == 8
+    first, second = (averaged_state(run)["outputs.weight"] for run in runs)
+    torch.testing.assert_close(mean_state([averaged_state(run) for run in runs])["outputs.weight"], (first + second) / 2)
+    with pytest.raises(ConfigError, match="different networks"):
+        mean_state([{"a": torch.zeros(2)}, {"a": torch.zeros(3)}])
 
 
 def test_nothing_to_resume(shard_folder: Path, tmp_path: Path) -> None:
