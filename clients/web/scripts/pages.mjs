@@ -1,7 +1,7 @@
 // Builds the pages that the Python package serves: `npm run pages`, or `npm run pages -- --check` to see whether the committed ones are
 // what the sources give. The same sources give the same bytes.
 import { build } from "esbuild";
-import { cpSync, existsSync, mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync } from "node:fs";
+import { cpSync, existsSync, mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { dirname, join, relative } from "node:path";
 import { fileURLToPath } from "node:url";
@@ -24,9 +24,15 @@ async function buildPages(folder) {
   const script = (name) => join(SOURCE, "src", `${name}.ts`);
   await build({ ...settings, entryPoints: [script(LIBRARY)] });
   await build({ ...settings, entryPoints: SCRIPTS.map(script), plugins: [shared] });
-  for (const name of readdirSync(SOURCE)) if (name !== "src") cpSync(join(SOURCE, name), join(folder, name));
+  for (const { name } of readdirSync(SOURCE, { withFileTypes: true }).filter((entry) => entry.isFile())) {
+    if (name.endsWith(".html")) writeFileSync(join(folder, name), assembled(readFileSync(join(SOURCE, name), "utf8")));
+    else cpSync(join(SOURCE, name), join(folder, name));
+  }
   await buildKeypad(join(folder, "keypad"));
 }
+
+/** A page with what all pages share in place of `<!-- part: NAME -->`. */
+const assembled = (html) => html.replace(/^ *<!-- part: (\w+) -->\n/gm, (_, name) => readFileSync(join(SOURCE, "parts", `${name}.html`), "utf8"));
 
 const files = (folder) =>
   new Map(
