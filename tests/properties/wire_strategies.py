@@ -80,7 +80,8 @@ def observations(draw: st.DrawFn) -> FrameObservation:
             scale, r, theta = draw(st.tuples(st.floats(1e-300, 1e300), st.floats(0, 1e300), st.floats(-pi, pi)))
             at = {"tip_px": place, "px_per_mm": scale, "r_palms": r, "theta_rad": theta}
             tips.append(Fingertip(hand_id=hand.hand_id, handedness=hand.handedness, finger=finger, **at))
-            estimates.append(TouchEstimate(hand.hand_id, finger, draw(st.floats(0, 1)), draw(st.floats(0, 3.5))))
+            sigma_n = draw(st.none() | st.floats(0, 10))
+            estimates.append(TouchEstimate(hand.hand_id, finger, draw(st.floats(0, 1)), draw(st.floats(0, 3.5)), sigma_n))
     gate = GateResult(draw(st.sampled_from(GateReason)), pairs)
     size = draw(st.integers(32, 2**32 - 1)), draw(st.integers(32, 2**32 - 1))
     return FrameObservation(draw(st.integers(0, 2**64 - 1)), draw(TIMES_NS), *size, tuple(seen), gate, tuple(tips), tuple(estimates))

@@ -33,7 +33,14 @@ class WatchedHand:
         self.x_px = 0.0
         self.events: deque[TouchEvent] = deque()
 
-    def show(self, *touching: Finger, force_n: float = 1.0, frames: int = 1, seen: tuple[Finger, ...] = FINGERS) -> None:
+    def show(
+        self,
+        *touching: Finger,
+        force_n: float = 1.0,
+        sigma_n: float | None = None,
+        frames: int = 1,
+        seen: tuple[Finger, ...] = FINGERS,
+    ) -> None:
         """Be seen for some frames with these fingers on the skin and the other one above it."""
         for _ in range(frames):
             hand = with_tip_at(make_hand(extended=FINGERS, pointing_deg=135.0), Finger.INDEX, (CENTRE[0] + self.x_px, CENTRE[1]))
@@ -47,7 +54,9 @@ class WatchedHand:
                 )
                 for finger in seen
             )
-            estimates = tuple(TouchEstimate(1, tip.finger, *((0.99, force_n) if tip.finger in touching else (0.01, 0.0))) for tip in tips)
+            estimates = tuple(
+                TouchEstimate(1, tip.finger, *((0.99, force_n) if tip.finger in touching else (0.01, 0.0)), sigma_n) for tip in tips
+            )
             gate = GateResult(GateReason.OPEN, (TouchPair(hand, HOST, 0.5, seen),)) if seen else GateResult(GateReason.TOO_FAR)
             self.time_ns += self.frame_ns
             observation = FrameObservation(self.index, self.time_ns, 1280, 720, (hand, HOST), gate, tips, estimates)
@@ -71,6 +80,18 @@ def test_a_long_click_through_the_whole_engine_is_within_one_frame_of_400_ms(fps
     hand.show(Finger.INDEX, frames=round(fps * 0.6))
     (long_click,) = [event for event in hand.events if event.type is T.LONG_CLICK]
     assert 400.0 - 1e-3 <= long_click.duration_ms < 400.0 + 1000 / fps
+
+
+def test_the_error_of_the_force_is_told_while_the_finger_is_seen_on_the_skin(hand: WatchedHand) -> None:
+    hand.show(frames=3, sigma_n=0.4)
+    hand.show(Finger.INDEX, force_n=2.0, frames=4, sigma_n=0.3)
+    hand.show(frames=3, sigma_n=0.4)
+    told = {
+        event.type: event.force_sigma_n for event in hand.events if event.finger is Finger.INDEX and event.timestamp_ns < 8 * hand.frame_ns
+    }
+    assert told == {T.HOVER_ENTER: None, T.HOVER_MOVE: None, T.DOWN: 0.3, T.FORCE_ENTER: 0.3, T.MOVE: 0.3}
+    after = {event.type: event.force_sigma_n for event in hand.events if event.type in (T.FORCE_EXIT, T.UP, T.CLICK)}
+    assert after == dict.fromkeys((T.FORCE_EXIT, T.UP, T.CLICK))
 
 
 def test_two_fingers_touch_independently(hand: WatchedHand) -> None:
