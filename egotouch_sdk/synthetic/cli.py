@@ -34,7 +34,8 @@ def add_parser(subparsers: Any) -> None:
     patches = commands.add_parser("patches", help="render labelled fingertip patches (resumable)")
     patches.add_argument("--out", type=Path, required=True, help="folder for the shards")
     patches.add_argument("--series", type=int, default=1000, help="scenes of 8 patches each (default 1000)")
-    patches.add_argument("--participants", type=int, default=24, help="different skins (default 24)")
+    patches.add_argument("--participants", type=positive_int, default=24, help="different people (default 24)")
+    patches.add_argument("--first-participant", type=int, default=0, metavar="N", help="number of the first of them (default 0)")
     patches.add_argument("--samples", type=int, default=12, help="light paths per pixel (default 12)")
     patches.add_argument("--seed", type=int, default=0)
     add_runner_options(patches)
@@ -90,7 +91,7 @@ def _report(line: str) -> None:
 def _patches(args: argparse.Namespace) -> int:
     from egotouch_sdk.synthetic.patches_job import PatchJob, run
 
-    job = PatchJob(args.seed, args.series, args.participants, args.samples)
+    job = PatchJob(args.seed, args.series, args.participants, args.samples, args.first_participant)
     with closing(runner_from(args)) as runner:
         result = run(job, args.out, runner, _report)
     print(f"{result.counted} new patches in {args.out}")

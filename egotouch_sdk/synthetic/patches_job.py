@@ -24,12 +24,16 @@ _FITZPATRICK = (3.0, 2.0, 3.4, 4.0, 2.6, 5.0, 3.2, 1.3, 3.8, 6.0, 2.3, 4.4)
 
 @dataclass(frozen=True, slots=True)
 class PatchJob:
-    """What a data set is made of; the same job gives the same patches whatever renders them, and how many."""
+    """What a data set is made of; the same job gives the same patches whatever renders them, and how many.
+
+    Its people are `first_participant` and those after: sets that must not share anybody begin at different numbers.
+    """
 
     seed: int
     series: int
     participants: int
     samples: int
+    first_participant: int = 0
 
     @property
     def shards(self) -> int:
@@ -44,7 +48,7 @@ def participant(number: int) -> SkinIdentity:
 
 def render_shard(path: Path, job: PatchJob, shard: int) -> int:
     """Render one shard, write it to `path` and return its number of patches; every shard has one participant."""
-    number = shard % job.participants
+    number = job.first_participant + shard % job.participants
     identity = participant(number)
     host, touching = HandRig("left"), HandRig("right")
     patches: list[LabelledLayers] = []
