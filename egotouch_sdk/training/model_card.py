@@ -15,7 +15,8 @@ CARD_FILE = "MODEL_CARD.md"
 _INTRO = """# Touch model
 
 FastViT-T8 trunk, 126 features with (R, theta), 128 hidden units; one patch gives a touch logit and a force in newtons
-(EgoTouch, UIST 2024, section 4). Folded to plain convolutions for shipping. Version: **{version}**. Licence: {licence}.
+(EgoTouch, UIST 2024, section 4), and the standard error of that force. Folded to plain convolutions
+for shipping. Version: **{version}**. Licence: {licence}.
 
 | form | parameters | the paper's |
 | --- | --- | --- |
@@ -32,7 +33,8 @@ Trained and calibrated on rendered pictures only; no picture of a real person we
 Real pictures listed under "Measured" were looked at during development, as "What was tried" says, so they are no blind test.
 Figures on rendered pictures say nothing about real skin by themselves. Forces come from a contact model, not from a sensor:
 on the real thumb their order does not follow the sensor, so do not rely on them yet.
-Hair, sleeves, gloves, rings over the contact, wet skin and very dim rooms are not covered well.
+Sleeves, watches and rings were in the study only, not in training. Gloves, wet skin and very dim rooms are not covered.
+A touch below half a newton in soft light looks to it like a fingertip a millimetre or two above the skin.
 """
 
 
