@@ -59,7 +59,7 @@ class PointerView:
 
     def _is_late(self, event: TouchEvent, replay: bool) -> bool:
         pointer = self._pointers.get(event.pointer_id)
-        began_late = pointer is not None and pointer.is_late and event.contact_id == pointer.contact_id
+        began_late = pointer is not None and pointer.is_late and event.contact_id == pointer.contact_id and not event.type.is_hover
         return began_late or (replay and event.type in _NEVER_REPLAYED)
 
     def _show(self, event: TouchEvent, stale: bool, late: bool) -> Iterator[TouchEvent]:

@@ -290,6 +290,21 @@ def test_an_edge_that_waited_too_long_cancels_its_contact(world: ServedWorld, fi
     assert world.drops.total() == 1
 
 
+def test_what_a_finger_does_after_a_late_touch_is_not_late(world: ServedWorld, finger: ServedFinger) -> None:
+    client = world.join(late_edges=True)
+    finger.enter()
+    client.stalled = True
+    finger.tap()
+    world.wait(300)
+    client.resume_reading()
+    client.expect(E.HOVER_ENTER)
+    assert [event.type for event in client.model.late] == [E.DOWN, *CLICKED]
+    finger.hover()
+    finger.tap()
+    finger.leave()
+    client.expect(E.HOVER_MOVE, E.DOWN, *CLICKED, E.HOVER_EXIT)
+
+
 def test_a_touch_that_waited_too_long_is_left_out_as_a_whole(world: ServedWorld, finger: ServedFinger) -> None:
     client = world.join()
     finger.enter()
