@@ -19,6 +19,7 @@ EXAMPLES = """\
   egotouch train --data data/patches --out out/touch
   egotouch train --data data/patches --out out/touch --resume      after an interruption
   egotouch train --data data/patches --out out/paper --recipe paper
+  egotouch train --data data/patches --out out/touch --trunk model.safetensors     ImageNet weights that you have fetched
   egotouch train --data data/others --out out/mean --average out/a/last.ckpt out/b/last.ckpt
   egotouch train --data data/study --out out/folds --folds 5            leave participants out, 5 models
   egotouch train --data data/study --out out/folds --folds 15 --ray auto --gpus 1       on a Ray cluster
@@ -53,6 +54,12 @@ def add_parser(subparsers: Subparsers) -> None:
     begin.add_argument("--resume", action="store_true", help="continue the run whose checkpoint is in --out")
     begin.add_argument("--start-from", type=Path, metavar="CKPT", help="start from the weights of another run's checkpoint")
     begin.add_argument(
+        "--trunk",
+        type=Path,
+        metavar="FILE",
+        help="start the trunk from a file of ImageNet weights: timm's fastvit_t8.apple_in1k or the authors'",
+    )
+    begin.add_argument(
         "--average", type=Path, nargs="+", metavar="CKPT", help="no training: the mean of these runs' weights, calibrated on all of --data"
     )
     begin.add_argument("--folds", type=positive_int, metavar="K", help="K runs that leave out groups of participants; writes folds.json")
@@ -86,7 +93,7 @@ def train(options: argparse.Namespace) -> int:
         path = average(options.average, options.data, options.out, recipe.seed)
         sys.stdout.write(f"model written to {path}\n")
         return 0
-    path = run(options.data, options.out, recipe, machine, resume=options.resume, start_from=options.start_from)
+    path = run(options.data, options.out, recipe, machine, resume=options.resume, start_from=options.start_from, trunk=options.trunk)
     sys.stdout.write(f"model written to {path}\n")
     return 0
 

@@ -25,7 +25,10 @@ AVERAGE_WARMUP_STEPS = 10.0
 
 
 class TouchModule(lightning.LightningModule):
-    """Trains `network` by a recipe; `shipped_network` is the averaged one, where averaging is on."""
+    """Trains `network` by a recipe; `shipped_network` is the averaged one, where averaging is on.
+
+    `trunk` says which file of weights the trunk started from, None for none; checkpoints keep it.
+    """
 
     def __init__(self, recipe: Recipe, touch_share: float) -> None:
         super().__init__()
@@ -35,6 +38,13 @@ class TouchModule(lightning.LightningModule):
         self.hover_head = nn.Linear(HIDDEN, 1)
         self.average = AveragedModel(self.network, multi_avg_fn=get_ema_multi_avg_fn(recipe.average_decay), use_buffers=True)
         self.held_out: list[tuple[Tensor, ...]] = []
+        self.trunk: dict[str, Any] | None = None
+
+    def on_save_checkpoint(self, checkpoint: dict[str, Any]) -> None:
+        checkpoint["trunk"] = self.trunk
+
+    def on_load_checkpoint(self, checkpoint: dict[str, Any]) -> None:
+        self.trunk = checkpoint.get("trunk")
 
     @property
     def shipped_network(self) -> TouchNetwork:

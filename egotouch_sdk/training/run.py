@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import json
+import sys
 from collections.abc import Collection
 from dataclasses import dataclass
 from datetime import timedelta
@@ -24,6 +25,7 @@ from egotouch_sdk.training.export import ModelFacts, write_model
 from egotouch_sdk.training.model_card import MANIFEST_FILE
 from egotouch_sdk.training.module import TouchModule
 from egotouch_sdk.training.network import TouchNetwork
+from egotouch_sdk.training.pretrained import start_trunk
 from egotouch_sdk.training.recipe import Recipe
 from egotouch_sdk.training.report import coverage, held_out_report
 from egotouch_sdk.training.shards import RenderedPatch, held_out, read_folder
@@ -68,12 +70,14 @@ def train(
     *,
     resume: bool = False,
     start_from: Path | None = None,
+    trunk: Path | None = None,
     left_out: Collection[int] = (),
 ) -> Path:
     """Train on the shards in `data`, export to `out` and return the model file's path.
 
     The last checkpoint is kept in `out` after every epoch and on Ctrl-C; `resume` continues from it. `start_from` is a checkpoint of
-    an earlier run whose weights are the start. The participants `left_out` neither train nor choose the threshold.
+    an earlier run whose weights are the start, `trunk` a file of FastViT-T8 weights for the trunk alone.
+    The participants `left_out` neither train nor choose the threshold.
     Raises `SourceError` for unusable data, `ConfigError` for a missing checkpoint.
     """
     torch.set_num_threads(machine.threads)
@@ -83,6 +87,8 @@ def train(
     module = TouchModule(recipe, float(np.mean([patch.label.touch for patch in split.train])))
     if start_from is not None:
         load_weights(module, start_from)
+    if trunk is not None:
+        begin_with_trunk(module, trunk)
     _, validation = fixed_views(split.held_out, recipe.held_out_views, recipe.seed)
     fit(module, split.train, validation, out, machine, resume)
     return export(module, split, out, earlier_stage(start_from))
@@ -136,6 +142,14 @@ def load_weights(module: TouchModule, checkpoint: Path) -> None:
     module.average.module.load_state_dict(averaged)
 
 
+def begin_with_trunk(module: TouchModule, path: Path) -> None:
+    """Start the trunk from FastViT-T8 weights and print what was taken; raises `ConfigError` when the file holds none."""
+    start = start_trunk(module.network, path)
+    module.average.module.load_state_dict(module.network.state_dict())
+    module.trunk = start.to_dict()
+    sys.stderr.write(f"{start}\n")
+
+
 def averaged_state(checkpoint: Path) -> dict[str, torch.Tensor]:
     """The shipped weights in a checkpoint; raises `ConfigError` when the file is none."""
     return _under(_read_state(checkpoint), "average.module.")
@@ -186,6 +200,8 @@ def export(module: TouchModule, split: Split, out: Path, earlier: dict[str, Any]
         "calibration": {"scale": round(calibration.scale, 4), "shift": round(calibration.shift, 4)},
         "threshold_from": "held-out rendered participants; 2.6 % of their hovers reach it",
     }
+    if module.trunk is not None:
+        training["trunk"] = module.trunk
     if earlier is not None:
         training["started_from"] = earlier
     facts = ModelFacts(f"renders-{len(split.train)}", calibration.down, calibration.up, training, {"held_out_renders": measured})
