@@ -6,17 +6,13 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import torch
 from torch import Tensor
 
 from egotouch_sdk.errors import ConfigError
-from egotouch_sdk.training.calibration import calibrate
-from egotouch_sdk.training.dataset import fixed_views
 from egotouch_sdk.training.export import ModelFacts, write_model
 from egotouch_sdk.training.network import TouchNetwork
-from egotouch_sdk.training.report import coverage, held_out_report
-from egotouch_sdk.training.run import averaged_state, calibrated, earlier_stage, predict
+from egotouch_sdk.training.run import DATA, averaged_state, calibrate_and_score, census, earlier_stage
 from egotouch_sdk.training.shards import RenderedPatch, read_folder
 
 VIEWS = 2
@@ -46,23 +42,12 @@ def mean_state(states: Sequence[dict[str, Tensor]]) -> dict[str, Tensor]:
 
 def export_calibrated(network: TouchNetwork, patches: Sequence[RenderedPatch], out: Path, training: dict[str, Any], seed: int) -> Path:
     """Calibrate a network on rendered patches, write it with its scores on them, return the model file's path."""
-    index, views = fixed_views(patches, VIEWS, seed)
-    labels = [patches[i].label for i in index]
-    touch = np.array([label.touch for label in labels])
-    calibration = calibrate(touch, predict(network, views)[0])
-    shipped = calibrated(network, calibration)
-    logit, force_n, sigma_n = predict(shipped, views)
-    measured = held_out_report(labels, 1 / (1 + np.exp(-logit.astype(np.float64))), force_n, calibration.down)
-    measured["force_within_one_sigma"] = coverage(labels, force_n, sigma_n)
+    shipped, calibration, measured = calibrate_and_score(network, patches, VIEWS, seed)
     facts = {
-        "data": "rendered by egotouch_sdk.synthetic; no pictures of people",
+        "data": DATA,
         **training,
-        "calibration": {"scale": round(calibration.scale, 4), "shift": round(calibration.shift, 4)},
-        "calibrated_on": {
-            "patches": len(patches),
-            "participants": len({p.label.participant for p in patches}),
-            "scenes": len({p.label.scene for p in patches}),
-        },
+        "calibration": calibration.to_dict(),
+        "calibrated_on": census(patches),
         "threshold_from": THRESHOLD_FROM,
     }
     version = f"renders-{sum(int((run or {}).get('patches', 0)) for run in training.values() if isinstance(run, dict))}"

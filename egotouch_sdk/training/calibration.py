@@ -28,6 +28,10 @@ class Calibration:
     down: float
     up: float
 
+    def to_dict(self) -> dict[str, float]:
+        """Scale and shift as a manifest has them."""
+        return {"scale": round(self.scale, 4), "shift": round(self.shift, 4)}
+
 
 def calibrate(touch: npt.NDArray[np.bool_], logit: npt.NDArray[np.floating]) -> Calibration:
     """Fit scale and shift (Platt) with both classes weighing the same, then place the thresholds.

@@ -5,7 +5,7 @@ from __future__ import annotations
 import copy
 import json
 import sys
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from datetime import timedelta
 from pathlib import Path
@@ -33,6 +33,8 @@ from egotouch_sdk.training.shards import RenderedPatch, held_out, read_folder
 #: Pictures per forward pass when scoring.
 SCORING_BATCH = 128
 LAST_CHECKPOINT = "last.ckpt"
+#: What manifests say of the data.
+DATA = "rendered by egotouch_sdk.synthetic; no pictures of people"
 
 
 @dataclass(frozen=True, slots=True)
@@ -178,26 +180,15 @@ def earlier_stage(checkpoint: Path | None) -> dict[str, Any] | None:
 def export(module: TouchModule, split: Split, out: Path, earlier: dict[str, Any] | None = None) -> Path:
     """Calibrate on the held-out renders, write the model with its scores, and return its path."""
     recipe = module.recipe
-    network = module.shipped_network
-    index, views = fixed_views(split.held_out, recipe.held_out_views, recipe.seed)
-    labels = [split.held_out[i].label for i in index]
-    touch = np.array([label.touch for label in labels])
-    logit, _, _ = predict(network, views)
-    calibration = calibrate(touch, logit)
-    shipped = calibrated(network, calibration)
-    logit, force_n, sigma_n = predict(shipped, views)
-    measured = held_out_report(labels, 1 / (1 + np.exp(-logit.astype(np.float64))), force_n, calibration.down)
-    measured["force_within_one_sigma"] = coverage(labels, force_n, sigma_n)
+    shipped, calibration, measured = calibrate_and_score(module.shipped_network, split.held_out, recipe.held_out_views, recipe.seed)
     training: dict[str, Any] = {
-        "data": "rendered by egotouch_sdk.synthetic; no pictures of people",
-        "patches": len(split.train),
-        "participants": len({p.label.participant for p in split.train}),
-        "scenes": len({p.label.scene for p in split.train}),
-        "held_out_participants": len({p.label.participant for p in split.held_out}),
+        "data": DATA,
+        **census(split.train),
+        "held_out_participants": census(split.held_out)["participants"],
         "epochs_done": module.current_epoch,
         "steps_done": module.global_step,
         "recipe": recipe.to_dict(),
-        "calibration": {"scale": round(calibration.scale, 4), "shift": round(calibration.shift, 4)},
+        "calibration": calibration.to_dict(),
         "threshold_from": "held-out rendered participants; 2.6 % of their hovers reach it",
     }
     if module.trunk is not None:
@@ -206,6 +197,26 @@ def export(module: TouchModule, split: Split, out: Path, earlier: dict[str, Any]
         training["started_from"] = earlier
     facts = ModelFacts(f"renders-{len(split.train)}", calibration.down, calibration.up, training, {"held_out_renders": measured})
     return write_model(shipped, facts, out)
+
+
+def calibrate_and_score(
+    network: TouchNetwork, patches: Sequence[RenderedPatch], views: int, seed: int
+) -> tuple[TouchNetwork, Calibration, dict[str, Any]]:
+    """A calibrated copy of the network, its calibration, and its scores on the pictures that calibrated it."""
+    index, pictures = fixed_views(patches, views, seed)
+    labels = [patches[i].label for i in index]
+    logit, force_n, sigma_n = predict(network, pictures)
+    calibration = calibrate(np.array([label.touch for label in labels]), logit)
+    probability = 1 / (1 + np.exp(-(calibration.scale * logit.astype(np.float64) + calibration.shift)))
+    measured = held_out_report(labels, probability, force_n, calibration.down)
+    measured["force_within_one_sigma"] = coverage(labels, force_n, sigma_n)
+    return calibrated(network, calibration), calibration, measured
+
+
+def census(patches: Sequence[RenderedPatch]) -> dict[str, int]:
+    """How many patches, participants and scenes there are."""
+    participants, scenes = {patch.label.participant for patch in patches}, {patch.label.scene for patch in patches}
+    return {"patches": len(patches), "participants": len(participants), "scenes": len(scenes)}
 
 
 def calibrated(network: TouchNetwork, calibration: Calibration) -> TouchNetwork:
