@@ -115,6 +115,12 @@ class TouchModelConfig(Section):
         default=None, description="A touch model (.onnx with its .json manifest beside it); None is the shipped one."
     )
     threads: int = Field(default=2, ge=1, le=64, description=_THREADS)
+    memory_ms: float = Field(
+        default=150.0,
+        ge=0,
+        description="What a model with memory remembers of a finger lasts for so long while the finger is not seen: three missed frames "
+        "at 30 per second (our choice). Models without memory ignore it.",
+    )
 
 
 class StateConfig(Section):

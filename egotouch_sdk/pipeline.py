@@ -18,7 +18,7 @@ from egotouch_sdk.hands.tracker import HandTracker
 from egotouch_sdk.observation import FingertipPatch, GateResult, HandObservation
 from egotouch_sdk.patches import extract
 from egotouch_sdk.state import Thresholds
-from egotouch_sdk.touch import TouchModel
+from egotouch_sdk.touch import TouchModel, TouchStream
 from egotouch_sdk.touch_event import CancelReason, TouchEvent
 
 __all__ = ["STAGES", "FrameResult", "TouchPipeline"]
@@ -47,6 +47,7 @@ class TouchPipeline:
         self.touch = touch or TouchModel(config.touch.model_path, config.touch.threads)
         manifest = self.touch.manifest
         self.engine = EventEngine(config, Thresholds(manifest.down_probability, manifest.up_probability))
+        self._stream = TouchStream(self.touch, config.touch.memory_ms)
         self._host_memory = HostMemory(round(config.gate.host_memory_ms * 1e6))
         self._time = CaptureTime(config.state.stall_ms)
         self._gate = CLOSED
@@ -66,7 +67,7 @@ class TouchPipeline:
         laps.end("gate")
         patches = self._extract(frame, gate)
         laps.end("patches")
-        estimates = self.touch.estimate(patches)
+        estimates = self._stream.estimate(patches, frame.timestamp_ns)
         laps.end("touch")
         observation = FrameObservation(
             frame.index, frame.timestamp_ns, frame.width_px, frame.height_px, hands, gate, patches, estimates
@@ -97,6 +98,7 @@ class TouchPipeline:
         return tuple(patch for pair in gate.pairs for patch in extract(frame, pair, self.config.patches, mirrored=mirrored))
 
     def _forget(self) -> None:
+        self._stream.reset()
         self._host_memory.reset()
         self._gate = CLOSED
 

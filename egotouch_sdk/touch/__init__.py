@@ -2,5 +2,6 @@
 
 from egotouch_sdk.touch.manifest import TouchManifest
 from egotouch_sdk.touch.model import SHIPPED_MODEL, TouchModel
+from egotouch_sdk.touch.stream import TouchStream
 
-__all__ = ["SHIPPED_MODEL", "TouchManifest", "TouchModel"]
+__all__ = ["SHIPPED_MODEL", "TouchManifest", "TouchModel", "TouchStream"]

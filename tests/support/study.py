@@ -1,4 +1,4 @@
-"""Small studies made by code, and a touch model that answers what their `polar` says.
+"""Small studies made by code, and touch models that answer what their `polar` says.
 
 In these studies `polar` does not hold a place but the answer that `signal_model` gives: the logit and the force in newtons.
 """
@@ -17,6 +17,7 @@ import onnx
 from onnx import TensorProto, helper
 
 from egotouch_sdk.joints import Finger, Handedness
+from egotouch_sdk.observation import FingertipPatch
 from egotouch_sdk.study_data import Hair, RoundMeta, StudyRecipe, StudyRound, TouchType, write_recipe, write_round
 from egotouch_sdk.surface import Surface
 
@@ -123,12 +124,65 @@ def colour_model(folder: Path, name: str = "colour", force_n: float = 1.5) -> Pa
     return _write_model(folder, name, 0.6, 0.4, nodes, constants)
 
 
-def _write_model(folder: Path, name: str, down: float, up: float, nodes: Sequence[onnx.NodeProto], constants: dict[str, Any]) -> Path:
-    patch = helper.make_tensor_value_info("patch", TensorProto.FLOAT, ["N", 3, 100, 100])
-    polar = helper.make_tensor_value_info("polar", TensorProto.FLOAT, ["N", 2])
+def memory_model(folder: Path, name: str = "memory") -> Path:
+    """Write a real ONNX touch model with memory: red skin or a positive first number of `polar` look like a touch, blue or negative do not.
+
+    The logit is the mean of that over all frames that it remembers, the force 0.1 N for each of them, this one included.
+    """
+    constants = {
+        "axes": np.array([2, 3]),
+        "weights": np.array([[4.0], [0.0], [-4.0]], np.float32),
+        "first": np.array([[1.0], [0.0]], np.float32),
+        "second": np.array([[0.0], [1.0]], np.float32),
+        "as_first": np.array([[1.0, 0.0]], np.float32),
+        "one_frame": np.array([0.0, 1.0], np.float32),
+        "axis": np.array([1]),
+        "step": np.float32(0.1),
+    }
+    nodes = [
+        helper.make_node("ReduceMean", ["patch", "axes"], ["colour"], keepdims=0),
+        helper.make_node("MatMul", ["colour", "weights"], ["redness"]),
+        helper.make_node("MatMul", ["polar", "first"], ["told"]),
+        helper.make_node("Add", ["redness", "told"], ["look"]),
+        helper.make_node("MatMul", ["look", "as_first"], ["look_alone"]),
+        helper.make_node("Add", ["look_alone", "one_frame"], ["look_and_count"]),
+        helper.make_node("Add", ["memory", "look_and_count"], ["next_memory"]),
+        helper.make_node("MatMul", ["next_memory", "first"], ["sum"]),
+        helper.make_node("MatMul", ["next_memory", "second"], ["count"]),
+        helper.make_node("Div", ["sum", "count"], ["mean"]),
+        helper.make_node("Squeeze", ["mean", "axis"], ["touch_logit"]),
+        helper.make_node("Mul", ["count", "step"], ["steps"]),
+        helper.make_node("Squeeze", ["steps", "axis"], ["force_n"]),
+    ]
+    return _write_model(folder, name, 0.6, 0.4, nodes, constants, memory_size=2)
+
+
+def told_patch(told: float, hand_id: int = 1, finger: Finger = Finger.INDEX) -> FingertipPatch:
+    """A patch of plain grey skin of which `signal_model` and `memory_model` are told by `polar` how much it looks like a touch."""
+    grey = np.full((100, 100, 3), 128, np.uint8)
+    side = Handedness.RIGHT
+    return FingertipPatch(hand_id=hand_id, handedness=side, finger=finger, tip_px=(0.0, 0.0), px_per_mm=1.0, r_palms=told, image=grey)
+
+
+def _write_model(
+    folder: Path,
+    name: str,
+    down: float,
+    up: float,
+    nodes: Sequence[onnx.NodeProto],
+    constants: dict[str, Any],
+    memory_size: int = 0,
+) -> Path:
+    inputs = [
+        helper.make_tensor_value_info("patch", TensorProto.FLOAT, ["N", 3, 100, 100]),
+        helper.make_tensor_value_info("polar", TensorProto.FLOAT, ["N", 2]),
+    ]
     outputs = [helper.make_tensor_value_info(each, TensorProto.FLOAT, ["N"]) for each in ("touch_logit", "force_n")]
+    if memory_size:
+        inputs.append(helper.make_tensor_value_info("memory", TensorProto.FLOAT, ["N", memory_size]))
+        outputs.append(helper.make_tensor_value_info("next_memory", TensorProto.FLOAT, ["N", memory_size]))
     values = [onnx.numpy_helper.from_array(np.asarray(value), each) for each, value in constants.items()]
-    graph = helper.make_graph(nodes, name, [patch, polar], outputs, values)
+    graph = helper.make_graph(nodes, name, inputs, outputs, values)
     network = helper.make_model(graph, opset_imports=[helper.make_opsetid("", 18)], ir_version=9)
     file = folder / f"{name}.onnx"
     onnx.save(network, file)

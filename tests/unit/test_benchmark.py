@@ -6,10 +6,8 @@ import pytest
 from egotouch_sdk import benchmark
 from egotouch_sdk.benchmark import NetworkTime, fit_720p, network_time
 from egotouch_sdk.frame import Frame
-from egotouch_sdk.inference import create_session
-from egotouch_sdk.touch.model import SHIPPED_MODEL
-
-INPUTS = {"patch": np.zeros((1, 3, 100, 100), np.float32), "polar": np.zeros((1, 2), np.float32)}
+from egotouch_sdk.touch import TouchModel
+from tests.support.study import told_patch
 
 
 @pytest.mark.parametrize("size_px", [(1280, 720), (640, 480), (480, 640), (1920, 1080)])
@@ -38,11 +36,11 @@ def test_calls_side_by_side_count_once(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_network_calls_are_timed_from_every_thread_and_only_inside_the_block() -> None:
-    session = create_session(SHIPPED_MODEL)
+    model = TouchModel()
     with network_time() as spent:
-        thread = Thread(target=lambda: session.run(None, INPUTS))
+        thread = Thread(target=lambda: model.estimate([told_patch(0.0)]))
         thread.start()
         thread.join()
         inside = spent.total_ns
-    session.run(None, INPUTS)
+    model.estimate([told_patch(0.0)])
     assert spent.total_ns == inside > 0

@@ -1,20 +1,24 @@
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from pathlib import Path
 
 import pytest
 
 from egotouch_sdk.config import StateConfig, TouchConfig
 from egotouch_sdk.errors import ConfigError, FrameError
 from egotouch_sdk.events import GrammarVerifier
+from egotouch_sdk.frame import Frame
 from egotouch_sdk.joints import Finger
 from egotouch_sdk.observation import FingertipPatch, GateReason, TouchEstimate
 from egotouch_sdk.pipeline import STAGES, FrameResult, TouchPipeline
 from egotouch_sdk.surface import Surface
 from egotouch_sdk.touch import TouchModel
 from egotouch_sdk.touch_event import CancelReason, EventType
+from tests.support.datasets import picture, touching_pair
 from tests.support.hands import host_hand, palm_centre, pointing_hand
 from tests.support.sources import FRAME_NS, ScriptedHands, grey_frame
+from tests.support.study import memory_model
 
 ENTER, HOVER, EXIT = EventType.HOVER_ENTER, EventType.HOVER_MOVE, EventType.HOVER_EXIT
 DOWN, MOVE, UP, CANCEL = EventType.DOWN, EventType.MOVE, EventType.UP, EventType.CANCEL
@@ -27,6 +31,7 @@ class ScriptedTouch(TouchModel):
     """The shipped model, whose answers are replaced by a script so that the stages around it can be seen."""
 
     touching = False
+    memory_size = 0
 
     def estimate(self, patches: Sequence[FingertipPatch]) -> tuple[TouchEstimate, ...]:
         probability, force_n = (0.99, 1.0) if self.touching else (0.01, 0.0)
@@ -176,3 +181,64 @@ def test_the_real_stages_run_together_on_a_picture_without_hands() -> None:
     result = pipeline.process(grey_frame(0))
     assert (result.hands, result.events) == ((), ())
     assert pipeline.finish(FRAME_NS) == ()
+
+
+class RememberedFinger:
+    """A fingertip on a palm in front of a pipeline whose model tells by the force how many of its frames it remembers."""
+
+    def __init__(self, folder: Path, config: TouchConfig | None = None, now_ns: Callable[[], int] = lambda: 0) -> None:
+        self.hands = ScriptedHands()
+        self.pipeline = TouchPipeline(config, hands=self.hands, touch=TouchModel(memory_model(folder)), now_ns=now_ns)
+        self.index = 0
+
+    def film(self, letters: str) -> list[FrameResult]:
+        """One frame per letter: `#` looks like a touch, `.` does not, `x` shows no finger."""
+        return [self._show(letter) for letter in letters]
+
+    def remembered(self, letters: str) -> list[int]:
+        """How many frames of the finger are remembered wherever it is seen."""
+        return [round(each.force_n / 0.1) for result in self.film(letters) for each in result.estimates]
+
+    def _show(self, letter: str) -> FrameResult:
+        finger, host = touching_pair()
+        self.hands.hands = (host,) if letter == "x" else (finger, host)
+        self.index += 1
+        return self.pipeline.process(Frame(picture(letter), self.index * FRAME_NS, self.index))
+
+
+def test_a_finger_is_remembered_from_frame_to_frame_and_through_a_short_loss(tmp_path: Path) -> None:
+    assert RememberedFinger(tmp_path).remembered("#..xxx.#") == [1, 2, 3, 4, 5]
+
+
+def test_a_finger_that_is_away_for_longer_than_is_set_is_forgotten(tmp_path: Path) -> None:
+    assert RememberedFinger(tmp_path).remembered("#..xxxx.#") == [1, 2, 3, 1, 2]
+    assert RememberedFinger(tmp_path, TouchConfig(touch={"memory_ms": 40.0})).remembered("#..x.#") == [1, 2, 3, 1, 2]
+
+
+def test_a_stall_forgets_the_finger_however_long_it_would_be_remembered(tmp_path: Path) -> None:
+    finger = RememberedFinger(tmp_path, TouchConfig(touch={"memory_ms": 10_000.0}))
+    finger.film("#..")
+    finger.index += 5
+    assert finger.remembered(".") == [4]
+    finger.index += 8
+    assert finger.remembered("..") == [1, 2]
+
+
+def test_another_source_finds_every_finger_forgotten(tmp_path: Path) -> None:
+    finger = RememberedFinger(tmp_path)
+    finger.film("#..")
+    finger.pipeline.finish((finger.index + 1) * FRAME_NS)
+    finger.index += 1
+    assert finger.remembered("..") == [1, 2]
+
+
+def test_a_replay_of_remembered_fingers_gives_the_same_events(tmp_path: Path) -> None:
+    letters = "....######..xx..####xxxxx..####....."
+    seconds_ns = iter(range(0, 10**15, 10**9))
+    live, replay = RememberedFinger(tmp_path), RememberedFinger(tmp_path, now_ns=lambda: next(seconds_ns))
+    told = [result.events for result in live.film(letters)]
+    assert {DOWN, UP, CANCEL} <= {event.type for events in told for event in events}
+    assert [result.events for result in replay.film(letters)] == told
+    replay.pipeline.finish(replay.index * FRAME_NS)
+    replay.index = 0
+    assert [[each.type for each in result.events] for result in replay.film(letters)] == [[each.type for each in events] for events in told]

@@ -18,6 +18,8 @@ from tests.support.sources import ScriptedHands, grey_frame
 class TouchingModel(TouchModel):
     """The shipped model with its mind made up: everything touches."""
 
+    memory_size = 0
+
     def estimate(self, patches):
         return tuple(TouchEstimate(patch.hand_id, patch.finger, 0.99, 1.0) for patch in patches)
 

@@ -13,6 +13,8 @@ from egotouch_sdk.errors import ModelError
 from egotouch_sdk.joints import Finger, Handedness
 from egotouch_sdk.observation import FingertipPatch
 from egotouch_sdk.touch import SHIPPED_MODEL, TouchModel
+from egotouch_sdk.touch.manifest import check_signature
+from tests.support.study import memory_model, signal_model, told_patch
 
 
 def patch(seed: int, finger: Finger = Finger.INDEX) -> FingertipPatch:
@@ -58,6 +60,45 @@ def test_a_batch_gives_what_its_patches_give_alone(model: TouchModel) -> None:
 
 def test_no_patches_give_no_estimates(model: TouchModel) -> None:
     assert model.estimate([]) == ()
+
+
+def test_what_is_remembered_goes_in_and_comes_out(tmp_path: Path) -> None:
+    model = TouchModel(memory_model(tmp_path))
+    assert model.memory_size == 2
+    patches = [told_patch(2.0), told_patch(-1.0, hand_id=2)]
+    estimates, memories = model.estimate_next(patches, np.array([[4.0, 2.0], [0.0, 0.0]], np.float32))
+    assert memories.tolist() == [[6.0, 3.0], [-1.0, 1.0]]
+    assert [each.force_n for each in estimates] == pytest.approx([0.3, 0.1])
+    assert model.estimate(patches) == model.estimate_next(patches, np.zeros((2, 2), np.float32))[0]
+    none, nothing = model.estimate_next([], np.zeros((0, 2), np.float32))
+    assert none == () and nothing.shape == (0, 2)
+
+
+def test_a_model_without_memory_remembers_nothing(tmp_path: Path) -> None:
+    model = TouchModel(signal_model(tmp_path))
+    estimates, memories = model.estimate_next([told_patch(2.0)], np.zeros((1, 0), np.float32))
+    assert model.memory_size == 0 and memories.shape == (1, 0)
+    assert estimates == model.estimate([told_patch(2.0)])
+
+
+def test_memories_of_another_shape_are_refused(tmp_path: Path) -> None:
+    model = TouchModel(memory_model(tmp_path))
+    with pytest.raises(ModelError, match=r"memories have shape \(1, 3\), touch model memory 1 needs \(1, 2\)"):
+        model.estimate_next([told_patch(2.0)], np.zeros((1, 3), np.float32))
+
+
+def test_a_memory_that_is_no_number_is_refused(tmp_path: Path) -> None:
+    file = memory_model(tmp_path)
+    network = onnx.load(file)
+    for node in network.graph.node:
+        node.input[:] = ["kept" if name == "next_memory" else name for name in node.input]
+        node.output[:] = ["kept" if name == "next_memory" else name for name in node.output]
+    network.graph.initializer.append(onnx.numpy_helper.from_array(np.float32(0), "zero"))
+    network.graph.node.append(helper.make_node("Div", ["kept", "zero"], ["next_memory"]))
+    onnx.save(network, file)
+    write_hash(file)
+    with pytest.raises(ModelError, match="not finite"):
+        TouchModel(file).estimate([told_patch(1.0)])
 
 
 def test_thresholds_come_from_the_manifest(copied: Path) -> None:
@@ -145,3 +186,35 @@ def test_a_file_that_is_no_network_is_refused(copied: Path) -> None:
     write_hash(copied)
     with pytest.raises(ModelError, match="could not be loaded"):
         TouchModel(copied)
+
+
+SIGNATURE: tuple[dict[str, tuple[object, ...]], dict[str, tuple[object, ...]]] = (
+    {"patch": ("N", 3, 100, 100), "polar": ("N", 2)},
+    {"touch_logit": ("N",), "force_n": ("N",)},
+)
+
+
+@pytest.mark.parametrize(
+    ("memory", "next_memory", "message"),
+    [
+        (("N", 8), None, "has an input memory but no output next_memory"),
+        (None, ("N", 8), "has an output next_memory but no input memory"),
+        (("N", 8), ("N", 9), "takes memory of 8 numbers and gives next_memory of 9"),
+        (("N", "M"), ("N", "M"), r"input memory of shape \['N', 'M'\]"),
+        ((1, 8), (1, 8), r"input memory of shape \[1, 8\]"),
+        (("N", 0), ("N", 0), r"input memory of shape \['N', 0\]"),
+        (("N", 8), ("N", 8, 1), r"output next_memory of shape \['N', 8, 1\]"),
+        (("N", 8), ("N", "M"), r"output next_memory of shape \['N', 'M'\]"),
+    ],
+)
+def test_half_a_memory_is_refused(memory: tuple[object, ...] | None, next_memory: tuple[object, ...] | None, message: str) -> None:
+    inputs = SIGNATURE[0] | ({} if memory is None else {"memory": memory})
+    outputs = SIGNATURE[1] | ({} if next_memory is None else {"next_memory": next_memory})
+    with pytest.raises(ModelError, match=message):
+        check_signature(Path("touch.onnx"), inputs, outputs)
+
+
+@pytest.mark.parametrize("extra", ["force_sigma_n", "next_memory"])
+def test_an_output_is_no_input(extra: str) -> None:
+    with pytest.raises(ModelError, match=r"touch\.onnx has inputs .* a touch model has"):
+        check_signature(Path("touch.onnx"), SIGNATURE[0] | {extra: ("N", 8)}, SIGNATURE[1])
