@@ -15,6 +15,9 @@ if TYPE_CHECKING:
 EXAMPLES = """\
   egotouch estimate crop.png --tip 64,64 --px-per-mm 3.2 --json
   egotouch estimate crops/*.png --tip 64,64 --px-per-mm 3.2        many pictures of the same kind
+
+Every picture is judged alone, also by a model that remembers a finger's earlier frames; `egotouch run` and `egotouch evaluate` show it
+films.
 """
 #: Pictures per call of the network: enough to fill it, small enough for little memory.
 BATCH = 32
@@ -31,7 +34,8 @@ def tip_px(text: str) -> tuple[float, float]:
 
 def add_parser(subparsers: Subparsers) -> None:
     """Add `estimate` to the command line."""
-    parser = add_command(subparsers, "estimate", "touch probability and force for pictures of a fingertip that points up", EXAMPLES)
+    summary = "touch probability and force for pictures of a fingertip that points up, each judged alone"
+    parser = add_command(subparsers, "estimate", summary, EXAMPLES)
     parser.add_argument("images", metavar="IMAGE", nargs="+", type=Path, help="pictures in which the finger points up")
     parser.add_argument("--tip", required=True, type=tip_px, metavar="X,Y", help="the fingertip in image pixels from the top left")
     parser.add_argument("--px-per-mm", required=True, type=positive_float, metavar="S", help="image pixels per millimetre at the fingertip")

@@ -21,6 +21,10 @@ if TYPE_CHECKING:
 REAL_EXAMPLES = """\
   egotouch evaluate real thumb_patches                          per recording and pooled, the darkness rule beside the model
   egotouch evaluate real thumb_patches --report out/real.html   the same as a report
+  egotouch evaluate real thumb_patches --stills                 every picture alone, whatever came before it
+
+A model that remembers judges the pictures of a recording as a film at 30 frames per second, numbered by the column `frame` of
+labels.csv; pictures labelled otherwise than touch or hover, or not surely, are shown to it and not scored.
 """
 FALSE_EXAMPLES = """\
   egotouch evaluate false-touches clips/*.mp4                   false touches per minute, of each clip and of all
@@ -53,6 +57,7 @@ def add_parsers(kinds: Subparsers) -> None:
     real.add_argument("--tip", type=point_px, default=THUMB_TIP_PX, metavar="X,Y", help="TIP landmark in pixels (default 316,175)")
     real.add_argument("--px-per-mm", type=positive_float, default=THUMB_PX_PER_MM, metavar="S", help="scale of the pictures (default 7.3)")
     real.add_argument("--min-confidence", type=positive_float, default=MIN_CONFIDENCE, metavar="C", help="default 0.7")
+    real.add_argument("--stills", action="store_true", help="judge every picture alone, not as the frames of a film")
     add_report_options(real)
     real.set_defaults(handler=evaluate_real)
     false = add_command(kinds, "false-touches", "count touches in video without any", FALSE_EXAMPLES)
@@ -69,20 +74,27 @@ def add_parsers(kinds: Subparsers) -> None:
 def evaluate_real(options: argparse.Namespace) -> int:
     """Score real patches and print the report."""
     from egotouch_sdk.evaluation.document import Document, Facts, Section, Text, write_document
-    from egotouch_sdk.evaluation.real_patches import FLOOR_COUNTS, estimate_all, read_real_patches, real_report
+    from egotouch_sdk.evaluation.real_estimates import estimate_film, estimate_stills
+    from egotouch_sdk.evaluation.real_patches import FLOOR_COUNTS, read_real_patches, real_report
     from egotouch_sdk.touch import TouchModel
 
     check_report(options.report)
-    patches = read_real_patches(options.folder, options.tip, options.px_per_mm, options.min_confidence)
     model = TouchModel(options.model)
-    report = real_report(patches, estimate_all(patches, model), model.manifest.down_probability)
-    report = {"model": f"{model.manifest.name} {model.manifest.version}", "sha256": model.manifest.sha256, **report}
+    as_film = model.memory_size > 0 and not options.stills
+    patches = read_real_patches(options.folder, options.tip, options.px_per_mm, options.min_confidence, history=as_film)
+    report = real_report(patches, (estimate_film if as_film else estimate_stills)(patches, model), model.manifest.down_probability)
+    about = {"model": f"{model.manifest.name} {model.manifest.version}", "sha256": model.manifest.sha256}
+    report = {**about, "judged": "film" if as_film else "stills", **report}
+    judged = "as films at 30 frames per second, each picture with what the model remembers of those before it"
+    if not as_film:
+        judged = "every picture alone" if model.memory_size else "every picture alone, since the model has no memory"
     threshold = f"{report['threshold']:.3f}, the model's own, chosen before without these pictures"
     rows = {**report["recordings"], "pooled": report["pooled"]}
     if options.report:
         facts = (
             ("Model", f"{report['model']}, sha256 {report['sha256'][:12]}"),
             ("Threshold", threshold),
+            ("Judged", judged),
             ("Pictures", str(options.folder)),
         )
         text = (
@@ -100,7 +112,7 @@ def evaluate_real(options: argparse.Namespace) -> int:
     if options.json:
         print_json(report)
         return 0
-    print(f"{report['model']}, threshold {threshold}")
+    print(f"{report['model']}, threshold {threshold}\njudged {judged}")
     _print_table(_real_table(rows, {**TOUCH_COLUMNS, **FORCE_COLUMNS}))
     return 0
 

@@ -9,12 +9,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from egotouch_sdk.capture_time import CaptureTime
 from egotouch_sdk.evaluation.study_run import StillFingers
 from egotouch_sdk.gate import active_fingers
 from egotouch_sdk.joints import NUM_JOINTS, Handedness
 from egotouch_sdk.observation import HandObservation, TouchPair
 from egotouch_sdk.patches import extract
 from egotouch_sdk.state import Thresholds
+from egotouch_sdk.touch import TouchStream
 from egotouch_sdk.touch_event import CancelReason, EventType
 
 if TYPE_CHECKING:
@@ -105,15 +107,17 @@ def count_without_gate(frames: Iterable[Frame], hands: HandSource, model: TouchM
     Harder than live use: a single hand in the air never gets that far there.
     """
     own = Thresholds(model.manifest.down_probability, model.manifest.up_probability).overridden_by(config.state)
-    chain = StillFingers(own, config.state)
+    chain, stream, time = StillFingers(own, config.state), TouchStream(model, config.touch.memory_ms), CaptureTime(config.state.stall_ms)
     times: list[int] = []
     downs = patches = with_hands = shown = 0
     for frame in frames:
+        if not time.advance(frame.timestamp_ns):
+            stream.reset()
         seen = [hand for hand in hands.track(frame) if hand.score >= config.gate.min_touching_score]
         pairs = [TouchPair(hand, nobody(hand), 0.0, active_fingers(hand, config.gate)) for hand in seen]
         cut = [patch for pair in pairs for patch in extract(frame, pair, config.patches, mirrored=config.hands.mirrored)]
         sides = {hand.hand_id: hand.handedness for hand in seen}
-        _, events = chain.step(model.estimate(cut), frame.timestamp_ns, sides)
+        _, events = chain.step(stream.estimate(cut, frame.timestamp_ns), frame.timestamp_ns, sides)
         times.append(frame.timestamp_ns)
         downs += sum(event.type is EventType.DOWN for event in events)
         patches, with_hands, shown = patches + len(cut), with_hands + bool(seen), shown + bool(cut)

@@ -1,4 +1,4 @@
-"""Real finger-up pictures with eye labels: reading them and scoring a touch model on them."""
+"""Real finger-up pictures with eye labels: reading them, and scores of a touch model's answers to them."""
 
 from __future__ import annotations
 
@@ -18,36 +18,45 @@ from egotouch_sdk.errors import SourceError
 from egotouch_sdk.evaluation.bootstrap import DRAWS, Indices, interval_of_recordings
 from egotouch_sdk.evaluation.darkness import darkness
 from egotouch_sdk.evaluation.metrics import Floats, auroc, spearman, touch_scores
-from egotouch_sdk.joints import Finger, Handedness
-from egotouch_sdk.observation import FingertipPatch, TouchEstimate
+from egotouch_sdk.observation import TouchEstimate
 from egotouch_sdk.patches import cut_patch
-from egotouch_sdk.touch import TouchModel
 
 LABELS_FILE = "labels.csv"
 COLUMNS = ("file", "recording", "frame", "label", "label_confidence", "force_sensor_counts")
 #: Least sensor reading that is a force, not the sensor's floor (our measurement: from 10 counts it agrees with the eye in 90 %).
 FLOOR_COUNTS = 10.0
-#: Patches per call of the model.
-BATCH = 64
 
 
 @dataclass(frozen=True, slots=True)
 class RealPatch:
-    """One labelled picture. `sensor_counts` is the raw force sensor reading, nan where there is none."""
+    """One labelled picture.
+
+    `frame` is its number in the film of its recording, None where it has no whole number. `sensor_counts` is the raw force sensor
+    reading, nan where there is none. `scored` is False for a picture that only comes before others in a film.
+    """
 
     file: str
     recording: str
+    frame: int | None
     touch: bool
     sensor_counts: float
     image: npt.NDArray[np.uint8]
+    scored: bool = True
 
 
 def read_real_patches(
-    folder: Path, tip_px: tuple[float, float], px_per_mm: float, min_confidence: float, finger_up: tuple[float, float] = (0.0, -1.0)
+    folder: Path,
+    tip_px: tuple[float, float],
+    px_per_mm: float,
+    min_confidence: float,
+    finger_up: tuple[float, float] = (0.0, -1.0),
+    *,
+    history: bool = False,
 ) -> list[RealPatch]:
     """Pictures of a folder with `labels.csv`, labelled touch or hover with at least the given confidence, cut around the tip.
 
-    The pictures lie in the folder itself or in its `image` folder. `tip_px` is the TIP landmark in every picture, `px_per_mm` its scale.
+    With `history` the other pictures come too, in their places and not to be scored. The pictures lie in the folder itself or in its
+    `image` folder. `tip_px` is the TIP landmark in every picture, `px_per_mm` its scale.
     Raises `SourceError` for a missing file or column, an unreadable picture, or when nothing is left.
     """
     table = folder / LABELS_FILE
@@ -58,39 +67,35 @@ def read_real_patches(
         missing = sorted(set(COLUMNS) - set(reader.fieldnames or ()))
         if missing:
             raise SourceError(f"{table} lacks the columns {', '.join(missing)}")
-        rows = [row for row in reader if row["label"] in ("touch", "hover") and _number(row["label_confidence"]) >= min_confidence]
-    if not rows:
+        every = [(row, row["label"] in ("touch", "hover") and _number(row["label_confidence"]) >= min_confidence) for row in reader]
+    if not any(scored for _, scored in every):
         raise SourceError(f"{table} has no touch or hover labelled with confidence {min_confidence} or more")
     return [
         RealPatch(
             row["file"],
             row["recording"],
+            _whole(row["frame"]),
             row["label"] == "touch",
             _number(row["force_sensor_counts"]),
             cut_patch(_read(folder, row["file"]), tip_px, finger_up, px_per_mm, False),
+            scored,
         )
-        for row in rows
+        for row, scored in every
+        if scored or history
     ]
-
-
-def estimate_all(patches: Sequence[RealPatch], model: TouchModel) -> list[TouchEstimate]:
-    """The model's answers, host unknown."""
-    shown = [
-        FingertipPatch(hand_id=0, handedness=Handedness.RIGHT, finger=Finger.THUMB, tip_px=(0.0, 0.0), px_per_mm=1.0, image=patch.image)
-        for patch in patches
-    ]
-    return [estimate for start in range(0, len(shown), BATCH) for estimate in model.estimate(shown[start : start + BATCH])]
 
 
 def real_report(patches: Sequence[RealPatch], estimates: Sequence[TouchEstimate], threshold: float, draws: int = DRAWS) -> dict[str, Any]:
-    """Scores pooled and per recording, the trivial darkness rule beside the model; shares are 0..1, None where undefined.
+    """Scores of the pictures to be scored, pooled and per recording, the trivial darkness rule beside the model.
+
+    Shares are 0..1, None where undefined.
 
     `*_interval` are 95 % bootstraps: within a recording by stretches of frames, pooled by recordings and stretches within them.
     `force_spearman` is over all touches with a sensor reading, `force_spearman_above_floor` over those that the sensor felt.
     """
-    recordings = sorted({patch.recording for patch in patches})
-    ordered = [pair for name in recordings for pair in zip(patches, estimates, strict=True) if pair[0].recording == name]
-    parts = {name: [pair for pair in ordered if pair[0].recording == name] for name in recordings}
+    scored = [pair for pair in zip(patches, estimates, strict=True) if pair[0].scored]
+    recordings = sorted({patch.recording for patch, _ in scored})
+    parts = {name: [pair for pair in scored if pair[0].recording == name] for name in recordings}
     return {
         "threshold": threshold,
         "pooled": _scores(list(parts.values()), threshold, draws),
@@ -140,6 +145,13 @@ def _number(text: str | None) -> float:
         return float(text or "nan")
     except ValueError:
         return float("nan")
+
+
+def _whole(text: str | None) -> int | None:
+    try:
+        return int(text or "")
+    except ValueError:
+        return None
 
 
 def _read(folder: Path, name: str) -> npt.NDArray[np.uint8]:

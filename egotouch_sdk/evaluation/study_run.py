@@ -8,7 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from egotouch_sdk.config import StateConfig
+from egotouch_sdk.capture_time import CaptureTime
+from egotouch_sdk.config import StateConfig, TouchModelConfig
 from egotouch_sdk.filters import MedianFilter
 from egotouch_sdk.joints import Handedness
 from egotouch_sdk.observation import FingertipPatch, HostPoint, TouchEstimate
@@ -16,7 +17,7 @@ from egotouch_sdk.patches import PATCH_PX_PER_MM
 from egotouch_sdk.state import FingertipSample, PointerState, Thresholds, TouchStateMachine
 from egotouch_sdk.study_data import StudyRound
 from egotouch_sdk.surface import Surface
-from egotouch_sdk.touch import TouchModel
+from egotouch_sdk.touch import TouchModel, TouchStream
 from egotouch_sdk.touch_event import TouchEvent
 
 #: Patches shown to the model at once (our choice; more is no faster on two cores).
@@ -44,13 +45,15 @@ class Answers:
 
 def answer(study_round: StudyRound, model: TouchModel, config: StateConfig | None = None) -> Answers:
     """Everything the product would have told about a round; thresholds are the model's own unless `config` sets others."""
-    own = Thresholds(model.manifest.down_probability, model.manifest.up_probability)
-    times_ns = study_round.timestamp_ns.tolist()
-    return follow(times_ns, estimate_frames(study_round, model), own, config or StateConfig())
+    own, config = Thresholds(model.manifest.down_probability, model.manifest.up_probability), config or StateConfig()
+    return follow(study_round.timestamp_ns.tolist(), estimate_frames(study_round, model, config.stall_ms), own, config)
 
 
-def estimate_frames(study_round: StudyRound, model: TouchModel) -> dict[int, TouchEstimate]:
-    """The model's answer for every frame whose gate is open, by frame number."""
+def estimate_frames(study_round: StudyRound, model: TouchModel, stall_ms: float) -> dict[int, TouchEstimate]:
+    """The model's answer for every frame whose gate is open, by frame number.
+
+    A model with memory sees the frames one after another and remembers the finger as long as the default settings say.
+    """
     meta = study_round.meta
     shown = {
         int(frame): FingertipPatch(
@@ -65,9 +68,23 @@ def estimate_frames(study_round: StudyRound, model: TouchModel) -> dict[int, Tou
         )
         for frame in np.flatnonzero(study_round.gate)
     }
+    if model.memory_size:
+        return _estimate_film(study_round.timestamp_ns.tolist(), shown, model, stall_ms)
     patches = list(shown.values())
     estimates = [told for start in range(0, len(patches), BATCH) for told in model.estimate(patches[start : start + BATCH])]
     return dict(zip(shown, estimates, strict=True))
+
+
+def _estimate_film(
+    times_ns: Sequence[int], shown: Mapping[int, FingertipPatch], model: TouchModel, stall_ms: float
+) -> dict[int, TouchEstimate]:
+    stream, time, told = TouchStream(model, TouchModelConfig().memory_ms), CaptureTime(stall_ms), {}
+    for frame, timestamp_ns in enumerate(times_ns):
+        if not time.advance(timestamp_ns):
+            stream.reset()
+        if frame in shown:
+            (told[frame],) = stream.estimate([shown[frame]], timestamp_ns)
+    return told
 
 
 def follow(times_ns: Sequence[int], estimates: Mapping[int, TouchEstimate], thresholds: Thresholds, config: StateConfig) -> Answers:

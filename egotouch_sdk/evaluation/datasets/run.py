@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from egotouch_sdk.capture_time import CaptureTime
 from egotouch_sdk.config import TouchConfig
 from egotouch_sdk.errors import SourceError
 from egotouch_sdk.evaluation.datasets.recording import GivenHands, LabelledRecording
@@ -22,7 +23,7 @@ from egotouch_sdk.observation import TouchEstimate, TouchPair
 from egotouch_sdk.patches import extract
 from egotouch_sdk.pipeline import TouchPipeline
 from egotouch_sdk.state import PointerState, Thresholds
-from egotouch_sdk.touch import TouchModel
+from egotouch_sdk.touch import TouchModel, TouchStream
 
 OnFrame = Callable[[Frame], object]
 
@@ -116,12 +117,15 @@ def _look(recording: LabelledRecording, result: FrameResult, pipeline: TouchPipe
 
 def _alone(recording: LabelledRecording, model: TouchModel, config: TouchConfig, done: OnFrame | None) -> list[_Seen]:
     """Every frame's patch cut by the given joints, host unknown."""
-    seen = []
+    stream, time, seen = TouchStream(model, config.touch.memory_ms), CaptureTime(config.state.stall_ms), []
     for frame in recording.read():
+        if not time.advance(frame.timestamp_ns):
+            stream.reset()
         hands = (recording.landmarks or {}).get(frame.index, ())
         pairs = [TouchPair(hand, nobody(hand), 0.0, (recording.finger,)) for hand in hands]
         patches = [patch for pair in pairs for patch in extract(frame, pair, config.patches, mirrored=config.hands.mirrored)]
-        seen.append(_Seen(frame.index, frame.timestamp_ns, next(iter(model.estimate(patches[:1])), None)))
+        own = next(iter(stream.estimate(patches[:1], frame.timestamp_ns)), None)
+        seen.append(_Seen(frame.index, frame.timestamp_ns, own))
         if done is not None:
             done(frame)
     return seen

@@ -10,6 +10,7 @@ from egotouch_sdk import __version__
 from egotouch_sdk.cli import demo
 from egotouch_sdk.sources import VideoFileSource
 from egotouch_sdk.view.annotate import HEIGHT_PX, WIDTH_PX
+from tests.support.study import memory_model
 
 Command = Callable[..., tuple[int, str, str]]
 COMMANDS = ("demo", "run", "record", "replay", "hands", "estimate", "bench", "doctor")
@@ -103,12 +104,14 @@ def test_estimate_prints_one_object_per_image(egotouch: Command, tmp_path: Path)
     assert all(0 <= record["touch_probability"] <= 1 and 0 <= record["force_n"] <= 3.5 for record in records)
 
 
-def test_estimate_of_many_images_equals_that_of_each(egotouch: Command, tmp_path: Path) -> None:
+@pytest.mark.parametrize("remembers", [False, True])
+def test_estimate_of_many_images_equals_that_of_each(egotouch: Command, tmp_path: Path, remembers: bool) -> None:
     noise = np.random.default_rng(3)
     files = [tmp_path / f"{index}.png" for index in range(3)]
     for file in files:
         cv2.imwrite(str(file), noise.integers(0, 255, (100, 100, 3), np.uint8))
-    options = ("--tip", "50,50", "--px-per-mm", "2.5", "--json")
+    model = ("--model", memory_model(tmp_path)) if remembers else ()
+    options = ("--tip", "50,50", "--px-per-mm", "2.5", "--json", *model)
     _, together, _ = egotouch("estimate", *files, *options)
     alone = "".join(egotouch("estimate", file, *options)[1] for file in files)
     for a, b in zip(map(json.loads, together.splitlines()), map(json.loads, alone.splitlines()), strict=True):

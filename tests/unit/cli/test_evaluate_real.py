@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from egotouch_sdk.cli.main import main
-from tests.support.study import signal_model
+from tests.support.study import memory_model, signal_model
 
 HEADER = "file,recording,frame,label,press_strength,label_confidence,force_sensor_counts\n"
 
@@ -43,12 +43,33 @@ def test_real_pictures_are_told_by_recording_with_the_darkness_rule(
     model = str(signal_model(tmp_path))
     assert main(["evaluate", "real", str(pictures), "--model", model, "--report", str(report)]) == 0
     lines = capsys.readouterr().out.splitlines()
-    assert [line.split()[0] for line in lines[2:]] == ["push0", "push1", "pooled"] and "threshold 0.600" in lines[0]
+    assert [line.split()[0] for line in lines[3:]] == ["push0", "push1", "pooled"] and "threshold 0.600" in lines[0]
+    assert lines[1] == "judged every picture alone, since the model has no memory"
     assert "| pooled | 4 | 4 | 0.500 [0.50, 0.50] | 1.000 [1.00, 1.00] |" in report.read_text()
     assert "## Force by recording" in report.read_text()
     assert main(["evaluate", "real", str(pictures), "--model", model, "--json"]) == 0
     told = json.loads(capsys.readouterr().out)
     assert told["pooled"]["darkness_auroc"] == 1.0 and told["recordings"]["push0"]["touches"] == 2
+
+
+def test_a_model_that_remembers_judges_pictures_as_a_film_or_as_stills(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    folder = tmp_path / "pictures"
+    folder.mkdir()
+    rows = ""
+    for number, label in enumerate(["none", "unclear", "touch", "hover"]):
+        cv2.imwrite(str(folder / f"{number}.png"), np.full((480, 640, 3), (60, 80, 200) if label == "touch" else (200, 80, 60), np.uint8))
+        rows += f"{number}.png,push,{number},{label},,0.9,\n"
+    (folder / "labels.csv").write_text(HEADER + rows)
+    report, arguments = tmp_path / "real.md", ["evaluate", "real", str(folder), "--model", str(memory_model(tmp_path))]
+    told = {}
+    for judged, options in (("film", []), ("stills", ["--stills"])):
+        assert main([*arguments, *options, "--json", "--report", str(report)]) == 0
+        told[judged] = json.loads(capsys.readouterr().out)
+        assert told[judged]["judged"] == judged and told[judged]["pooled"]["touches"] == told[judged]["pooled"]["hovers"] == 1
+        assert ("as films at 30 frames per second" if judged == "film" else "- Judged: every picture alone\n") in report.read_text()
+    assert (told["film"]["pooled"]["true_positive_rate"], told["stills"]["pooled"]["true_positive_rate"]) == (0.0, 1.0)
 
 
 def test_false_touches_are_told_by_clip_and_pooled(video: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

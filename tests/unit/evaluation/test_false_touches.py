@@ -12,7 +12,7 @@ from egotouch_sdk.observation import HandObservation
 from egotouch_sdk.pipeline import TouchPipeline
 from egotouch_sdk.touch import TouchModel
 from tests.support.datasets import picture, touching_pair
-from tests.support.study import colour_model
+from tests.support.study import colour_model, memory_model
 
 SECOND_NS = 1_000_000_000
 
@@ -86,3 +86,16 @@ def test_without_the_gate_every_outstretched_finger_of_both_hands_is_shown(tmp_p
 def test_an_empty_scene_has_nothing_to_show_without_the_gate_either(tmp_path: Path) -> None:
     _, ungated = coloured("..##..", (), tmp_path)
     assert (ungated.downs, ungated.patches, ungated.frames_with_hands, ungated.frames) == (0, 0, 0, 6)
+
+
+def test_without_the_gate_a_model_with_memory_remembers_each_finger_until_a_stall(tmp_path: Path) -> None:
+    finger, _ = touching_pair()
+    text = "........####"
+    hands = GivenHands(dict.fromkeys(range(len(text)), (finger,)))
+    flowing, stalled = (
+        [Frame(picture(letter), (i + away * (i > 7)) * SECOND_NS // 30, i) for i, letter in enumerate(text)] for away in (0, 8)
+    )
+    model, config = TouchModel(memory_model(tmp_path)), TouchConfig(touch={"memory_ms": 10_000.0})
+    assert count_without_gate(flowing, hands, TouchModel(colour_model(tmp_path)), config).downs == 1
+    assert count_without_gate(flowing, hands, model, config).downs == 0
+    assert count_without_gate(stalled, hands, model, config).downs == 1

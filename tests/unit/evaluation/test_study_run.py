@@ -1,5 +1,8 @@
 from __future__ import annotations
 
+from dataclasses import replace
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -7,7 +10,7 @@ from egotouch_sdk.config import StateConfig
 from egotouch_sdk.evaluation.study_run import Answers, answer
 from egotouch_sdk.study_data import StudyRound
 from egotouch_sdk.touch import TouchModel
-from tests.support.study import signal_model, study_round
+from tests.support.study import memory_model, signal_model, study_round
 
 
 @pytest.fixture(scope="module")
@@ -60,3 +63,34 @@ def test_after_a_stall_the_past_is_forgotten(model: TouchModel) -> None:
     stalled = StudyRound(meta=study.meta, timestamp_ns=times, **arrays)
     assert live(answer(study, model)) == "...###.."
     assert live(answer(stalled, model)) == "...#...."
+
+
+def remembered(study: StudyRound, folder: Path, config: StateConfig | None = None) -> list[int | None]:
+    """How many frames of the finger a model with memory had in mind, in each frame; None behind a closed gate."""
+    told_n = answer(study, TouchModel(memory_model(folder)), config).force_n
+    return [None if np.isnan(force_n) else round(force_n / 0.1) for force_n in told_n]
+
+
+def test_a_model_with_memory_is_shown_a_round_as_a_film(tmp_path: Path) -> None:
+    assert remembered(study_round("..##.."), tmp_path) == [1, 2, 3, 4, 5, 6]
+    answers = answer(study_round("..##..", [3.0, 3.0, 3.0, -1.0, -1.0, -1.0]), TouchModel(memory_model(tmp_path)))
+    assert (answers.probability > 0.5).tolist() == [True] * 6
+
+
+def test_every_round_is_a_film_of_its_own(tmp_path: Path) -> None:
+    model = TouchModel(memory_model(tmp_path))
+    assert answer(study_round("..#"), model).force_n.tolist() == answer(study_round("..#"), model).force_n.tolist()
+
+
+def test_a_finger_behind_a_gate_that_is_closed_for_too_long_is_forgotten(tmp_path: Path) -> None:
+    assert remembered(study_round(".#xxx##"), tmp_path) == [1, 2, None, None, None, 3, 4]
+    assert remembered(study_round(".#xxxx##"), tmp_path) == [1, 2, None, None, None, None, 1, 2]
+
+
+def test_a_model_with_memory_forgets_after_a_stall(tmp_path: Path) -> None:
+    study = study_round("..####")
+    times = study.timestamp_ns.copy()
+    times[3:] += 90_000_000
+    jerky = replace(study, timestamp_ns=times)
+    assert remembered(jerky, tmp_path) == [1, 2, 3, 4, 5, 6]
+    assert remembered(jerky, tmp_path, StateConfig(stall_ms=100.0)) == [1, 2, 3, 1, 2, 3]

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from egotouch_sdk.config import TouchConfig
 from egotouch_sdk.errors import MissingExtraError, SourceError
 from egotouch_sdk.evaluation.datasets.egopressure import find_egopressure
 from egotouch_sdk.evaluation.datasets.recording import LabelledRecording
@@ -14,7 +15,7 @@ from egotouch_sdk.evaluation.datasets.run import score_recording
 from egotouch_sdk.joints import HandJoint, Handedness
 from egotouch_sdk.touch import TouchModel
 from tests.support.datasets import HEIGHT_M, LENS, write_egopressure
-from tests.support.study import colour_model
+from tests.support.study import colour_model, memory_model
 
 pytest.importorskip("pyarrow")
 TOUCH = "xx....######....xx"
@@ -65,6 +66,19 @@ def test_presses_are_scored_by_the_joints_that_the_data_set_brings(tmp_path: Pat
     assert (score.touches, score.clicks, score.false_touches, score.participant) == (1, 1, 0, "p_001")
     assert len(score.touch) == 14 and score.frames["raw", 0].accuracy == 1.0
     assert score.true_n[score.touch] == pytest.approx([2.0] * 6, rel=1e-5) and score.told_n[5] == pytest.approx(2.5)
+
+
+def test_a_model_with_memory_remembers_the_finger_through_a_recording(tmp_path: Path) -> None:
+    write_egopressure(tmp_path, "p_001", "high_x5", TOUCH)
+    median_n = score_recording(load(tmp_path), TouchModel(memory_model(tmp_path))).told_n
+    assert [round(force_n / 0.1) for force_n in median_n] == list(range(14))
+
+
+def test_a_model_with_memory_forgets_the_finger_where_a_recording_stalls(tmp_path: Path) -> None:
+    write_egopressure(tmp_path, "p_001", "high_x5", TOUCH)
+    model, recording = TouchModel(memory_model(tmp_path)), load(tmp_path)
+    flowing, stalling = (score_recording(recording, model, TouchConfig(state={"stall_ms": stall_ms})) for stall_ms in (250.0, 20.0))
+    assert flowing.frames["raw", 0].accuracy < 1.0 == stalling.frames["raw", 0].accuracy
 
 
 def test_a_dropped_picture_is_a_gap_and_no_shift(tmp_path: Path, model: TouchModel) -> None:
