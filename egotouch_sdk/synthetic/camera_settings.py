@@ -28,6 +28,10 @@ MIX_WEIGHTS: dict[LightMix, tuple[tuple[float, float], tuple[float, float], tupl
     LightMix.KEY: ((0.8, 1.6), (0.0, 0.3), (0.1, 0.4)),
     LightMix.DIM: ((0.0, 0.3), (0.0, 0.4), (0.3, 0.8)),
 }
+#: Depth of the groove beside a pressed finger: with it, touches have creases as dark as photographs of touches (`egotouch synth check`).
+CREASE_DEPTH = (0.4, 0.9)
+#: Share of pictures with little or no colour, so that colour is never all there is to go by (our choice).
+PALE_SHARE = 0.15
 #: Largest tip error of the hand tracker in patch pixels, 12 px = 4.8 mm (its p90 in our rendering study was 3.9 to 6.5 mm).
 MAX_SHIFT_PX = 12.0
 #: Largest error of the finger's direction (our choice).
@@ -89,8 +93,8 @@ def draw_settings(rng: np.random.Generator) -> CameraSettings:
     return CameraSettings(
         occlusion_power=1.0 if rng.random() < 0.3 else float(rng.uniform(1.0, 3.2)),
         sample_blur_px=float(rng.uniform(0.7, 1.8)),
-        crease_depth=0.0 if rng.random() < 0.1 else float(rng.uniform(0.25, 0.8)),
-        crease_width_px=float(rng.uniform(1.0, 2.6)),
+        crease_depth=0.0 if rng.random() < 0.05 else float(rng.uniform(*CREASE_DEPTH)),
+        crease_width_px=float(rng.uniform(0.9, 2.2)),
         folds=_folds(rng),
         light_gains=_light_gains(rng, mix),
         crevice_tint=_crevice_tint(rng),
@@ -102,17 +106,17 @@ def draw_settings(rng: np.random.Generator) -> CameraSettings:
         native_px=_native_px(rng),
         finger_motion_px=_motion(rng, share=0.4, longest_px=16.0),
         camera_motion_px=_motion(rng, share=0.15, longest_px=6.0),
-        optical_blur_px=float(rng.uniform(0.4, 2.0)),
+        optical_blur_px=float(rng.uniform(0.4, 1.6)),
         skin_level=exp(rng.uniform(log(0.10), log(0.38))),
-        white_balance=np.exp(rng.normal(0, 0.05, 3)).astype(np.float32),
+        white_balance=np.exp(rng.normal(0, 0.07, 3)).astype(np.float32),
         noise=exp(rng.uniform(log(0.001), log(0.012))) * (2.0 if mix is LightMix.DIM else 1.0),
         noise_grain_px=float(rng.uniform(0.4, 1.0)),
         gamma=float(rng.uniform(1.9, 2.5)),
         shoulder=float(rng.uniform(0.0, 0.5)),
         contrast=float(rng.uniform(0.55, 1.15)),
         haze=float(rng.uniform(-0.06, 0.10)),
-        saturation=float(rng.uniform(0.7, 1.4)),
-        sharpening=float(max(0.0, rng.uniform(-0.4, 0.9))),
+        saturation=float(rng.uniform(0.0, 0.7) if rng.random() < PALE_SHARE else rng.uniform(0.7, 1.4)),
+        sharpening=float(max(0.0, rng.uniform(-0.3, 1.2))),
         jpeg_quality=int(rng.integers(45, 96)),
         distractor=_distractor(rng),
     )

@@ -16,6 +16,7 @@ from egotouch_sdk.surface import Surface
 
 _EXAMPLES = """examples:
   egotouch synth patches --out data/patches --series 1000   # 8,000 labelled patches; stop and restart as you like
+  egotouch synth films --out data/films --scenes 2000       # 48,000 frames of moving fingers, for a model with a memory
   egotouch synth patches --out data/patches --ray auto     # the same on a Ray cluster
   egotouch synth demo --scratch data/demo --out data        # the clip that `egotouch demo` plays
   egotouch synth sheet data/patches sheet.png               # look at some of them
@@ -40,6 +41,15 @@ def add_parser(subparsers: Any) -> None:
     patches.add_argument("--seed", type=int, default=0)
     add_runner_options(patches)
     patches.set_defaults(handler=_patches)
+    films = commands.add_parser("films", help="render labelled films of a moving fingertip, for models with a memory (resumable)")
+    films.add_argument("--out", type=Path, required=True, help="folder for the shards")
+    films.add_argument("--scenes", type=positive_int, default=2000, help="poses, with two films of 12 frames each (default 2000)")
+    films.add_argument("--participants", type=positive_int, default=40, help="different people (default 40)")
+    films.add_argument("--first-participant", type=int, default=0, metavar="N", help="number of the first of them (default 0)")
+    films.add_argument("--samples", type=positive_int, default=6, help="light paths per pixel (default 6)")
+    films.add_argument("--seed", type=int, default=0)
+    add_runner_options(films)
+    films.set_defaults(handler=_films)
     demo = commands.add_parser("demo", help="render the demo clip and its ground truth (resumable, about 20 minutes on 2 cores)")
     demo.add_argument("--scratch", type=Path, required=True, help="folder for rendered frames (about 1 GB)")
     demo.add_argument("--out", type=Path, required=True, help="folder for demo.mp4 and demo_truth.json")
@@ -59,7 +69,7 @@ def _add_study(commands: Any) -> None:
     study.add_argument("--out", type=Path, required=True, help="folder for study.json and the rounds (about 500 MB for all)")
     study.add_argument("--participants", type=positive_int, default=15, help="the first of the 15 participants (default 15)")
     study.add_argument("--rounds", type=positive_int, default=36, help="rounds of each, a balanced choice of the 36 (default 36)")
-    study.add_argument("--seconds", type=positive_float, default=1.2, help="length of a round (default 1.2)")
+    study.add_argument("--seconds", type=positive_float, default=3.0, help="length of a round (default 3)")
     study.add_argument("--samples", type=positive_int, default=6, help="light paths per pixel (default 6)")
     study.add_argument("--seed", type=int, default=0)
     add_runner_options(study)
@@ -95,6 +105,16 @@ def _patches(args: argparse.Namespace) -> int:
     with closing(runner_from(args)) as runner:
         result = run(job, args.out, runner, _report)
     print(f"{result.counted} new patches in {args.out}")
+    return result.exit_code
+
+
+def _films(args: argparse.Namespace) -> int:
+    from egotouch_sdk.synthetic.films_job import FilmsJob, run_films
+
+    job = FilmsJob(args.seed, args.scenes, args.participants, args.samples, args.first_participant)
+    with closing(runner_from(args)) as runner:
+        result = run_films(job, args.out, runner, _report)
+    print(f"{result.counted} new frames in {args.out}")
     return result.exit_code
 
 

@@ -12,26 +12,77 @@ import numpy.typing as npt
 from egotouch_sdk.study_data import TouchType
 from egotouch_sdk.synthetic.linalg import Array, Mask
 
-#: Heights between touches in millimetres: where a round starts and ends, and between two taps.
-START_MM, _BETWEEN_MM = (30.0, 40.0), (9.0, 26.0)
-#: Peak forces in newtons; the study's range is 0 to 3.5 N with soft and hard told apart at 1 N (EgoTouch, UIST'24).
-PEAK_N = {TouchType.TAP: (0.35, 2.2), TouchType.LIGHT_PRESS: (0.25, 1.0), TouchType.HARD_PRESS: (1.2, 3.4), TouchType.DRAG: (0.5, 2.2)}
-#: Lowest point of a hover in millimetres, drawn so that each factor of height is equally likely.
-HOVER_MM = (1.0, 15.0)
 #: Below this force the skin is only brushed; such frames count as not touched, `GRAZE_MM` above it.
 LEAST_FORCE_N, GRAZE_MM = 0.02, 0.05
-#: Duration of an approach and of lifting off, seconds: 0.1 to 0.2 m/s at the skin, as fingers tapping do (our choice).
-_APPROACH_S, _LIFT_S, _AGAIN_S = (0.22, 0.36), (0.15, 0.26), (0.14, 0.22)
-#: Presses and drags come down slower than taps by this factor (our choice).
-_CAREFUL = 1.3
-#: Time at the bottom: of a tap, of a press or drag, of a hover.
-_TAP_S, _HOLD_S, _HOVER_S = (0.0, 0.06), (0.30, 0.60), (0.25, 0.60)
 #: How far below the skin the path aims for 1 N, in mm per N^(2/3): force then rises in 40 to 100 ms, a range
 #: of our choice; how far finger and skin really give way is the tissue's own law.
 _YIELD_MM = 5.0
 #: Length of half a drag; with drift the finger stays within 15 mm of the contact, where the skin mesh is fine.
 _DRAG_HALF_MM = (3.0, 8.0)
 _TREMOR_HZ = (7.0, 11.0)
+#: Time that the next act needs at least, after its approach.
+_LEAST_ACT_S = 0.12
+
+Range = tuple[float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Pace:
+    """How people move in a round: durations in seconds, heights in millimetres, forces in newtons, each a range to draw from.
+
+    The defaults are the study's. Peak forces lie in its 0 to 3.5 N with soft and hard told apart at 1 N (EgoTouch, UIST'24). Holds make
+    touches 22 frames long in the mean; the paper's were 45 (125,656 touched frames between 5,566 edges). Fingers come down at 0.1 to
+    0.2 m/s as in tapping, presses slower by `careful` (our choice). `hover_mm` is a hover's lowest point, each factor of height equally
+    likely; `between_mm` the height between two touches, `start_mm` where a round begins. `hover_slides` is the share of hovers that
+    move sideways like a drag.
+    """
+
+    approach_s: Range = (0.22, 0.36)
+    again_s: Range = (0.16, 0.26)
+    lift_s: Range = (0.15, 0.26)
+    careful: float = 1.3
+    wait_s: Range = (0.15, 0.5)
+    tap_s: Range = (0.03, 0.25)
+    hold_s: Range = (1.2, 1.9)
+    hover_s: Range = (0.8, 1.6)
+    start_mm: Range = (30.0, 40.0)
+    between_mm: Range = (9.0, 26.0)
+    hover_mm: Range = (1.0, 15.0)
+    hover_slides: float = 0.0
+    tap_n: Range = (0.35, 2.2)
+    light_press_n: Range = (0.25, 1.0)
+    hard_press_n: Range = (1.2, 3.4)
+    drag_n: Range = (0.5, 2.2)
+
+    def peak_n(self, kind: TouchType) -> Range:
+        """Range of the peak force of an act that touches."""
+        peaks = {
+            TouchType.TAP: self.tap_n,
+            TouchType.LIGHT_PRESS: self.light_press_n,
+            TouchType.HARD_PRESS: self.hard_press_n,
+            TouchType.DRAG: self.drag_n,
+        }
+        return peaks[kind]
+
+
+STUDY_PACE = Pace()
+#: Training sees slower and faster fingers, lighter and shorter touches, and hovers that move like drags.
+TRAINING_PACE = Pace(
+    approach_s=(0.15, 0.7),
+    again_s=(0.12, 0.4),
+    lift_s=(0.12, 0.5),
+    careful=1.2,
+    wait_s=(0.0, 0.4),
+    tap_s=(0.0, 0.3),
+    hold_s=(0.2, 1.4),
+    hover_s=(0.1, 1.4),
+    between_mm=(4.0, 30.0),
+    hover_slides=0.35,
+    tap_n=(0.25, 2.6),
+    light_press_n=(0.2, 1.1),
+    hard_press_n=(1.0, 3.5),
+    drag_n=(0.3, 2.6),
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,61 +127,62 @@ class FingerMotion:
     The axes sideways are the skin's: along the finger's heading, and across it. Every draw comes from `rng`.
     """
 
-    def __init__(self, rng: np.random.Generator, kind: TouchType, seconds: float) -> None:
-        self.kind, self.seconds = kind, seconds
+    def __init__(self, rng: np.random.Generator, kind: TouchType, seconds: float, pace: Pace = STUDY_PACE) -> None:
+        self.kind, self.seconds, self._pace = kind, seconds, pace
         self._aim = rng.normal(0, 1.2, 2)
         self._swing = rng.normal(0, 6.0, 2)
         self._tilt_rad = float(np.radians(rng.uniform(-2, 8)))
         self._drift_hz, self._drift_phase = rng.uniform(0.3, 1.3, (3, 4)), rng.uniform(0, 2 * np.pi, (3, 4))
         self._drift_mm = rng.uniform(0.05, 0.3, (3, 4))
         self._tremor_hz, self._tremor_phase = rng.uniform(*_TREMOR_HZ), rng.uniform(0, 2 * np.pi)
-        self._start_mm = float(rng.uniform(*START_MM))
+        self._start_mm = float(rng.uniform(*pace.start_mm))
         self._knots: list[_Knot] = []
         acts: list[Act] = []
         time_s = float(rng.uniform(0.0, 0.10))
         self._rest(0.0, self._start_mm, (0.0, 0.0))
         self._rest(time_s, self._start_mm, (0.0, 0.0))
         first = True
-        while first or time_s + _APPROACH_S[0] + 0.12 < seconds:
+        while first or time_s + pace.again_s[0] + _LEAST_ACT_S < seconds:
             time_s, act = self._draw_act(rng, time_s, first)
             acts.append(act)
             first = False
         if time_s < seconds:
-            self._rest(time_s + float(rng.uniform(*_LIFT_S)), self._start_mm, self._knots[-1].at_mm)
+            self._rest(time_s + float(rng.uniform(*pace.lift_s)), self._start_mm, self._knots[-1].at_mm)
         self.acts: tuple[Act, ...] = tuple(acts)
 
     def _rest(self, time_s: float, height_mm: float, at_mm: tuple[float, float], peak_n: float = 0.0) -> None:
         self._knots.append(_Knot(time_s, height_mm, at_mm, peak_n))
 
     def _draw_act(self, rng: np.random.Generator, time_s: float, first: bool) -> tuple[float, Act]:
-        """Add the knots of one act that starts above the skin at `time_s`; returns when it is back above it."""
-        down_s = float(rng.uniform(*(_APPROACH_S if first else _AGAIN_S)))
+        """Add the knots of one act that starts above the skin at `time_s`; returns when the next one may start."""
+        pace = self._pace
+        down_s = float(rng.uniform(*(pace.approach_s if first else pace.again_s)))
         if self.kind not in (TouchType.TAP, TouchType.HOVER):
-            down_s *= _CAREFUL
+            down_s *= pace.careful
         near = self._aim + rng.normal(0, 0.6, 2)
-        here = (float(near[0]), float(near[1]))
-        there = here
-        between_mm = float(rng.uniform(*_BETWEEN_MM))
+        slides = self.kind is TouchType.DRAG or (self.kind is TouchType.HOVER and rng.random() < pace.hover_slides)
+        angle, half = rng.uniform(0, 2 * np.pi), rng.uniform(*_DRAG_HALF_MM) * slides
+        step = half * np.array([np.cos(angle), np.sin(angle)])
+        (x0, y0), (x1, y1) = (near - step).tolist(), (near + step).tolist()
+        here, there = (x0, y0), (x1, y1)
         if self.kind is TouchType.HOVER:
-            low_mm = float(np.exp(rng.uniform(*np.log(HOVER_MM))))
-            hold_s = float(rng.uniform(*_HOVER_S))
-            self._rest(time_s + down_s, low_mm, here)
-            self._rest(time_s + down_s + hold_s, low_mm * float(rng.uniform(1.0, 1.15)), here)
-            act = Act(self.kind, time_s + down_s, time_s + down_s + hold_s, low_mm)
+            peak = float(np.exp(rng.uniform(*np.log(pace.hover_mm))))
+            hold_s = float(rng.uniform(*pace.hover_s))
+            self._rest(time_s + down_s, peak, here)
+            self._rest(time_s + down_s + hold_s, peak * float(rng.uniform(1.0, 1.15)), there)
         else:
-            peak_n = float(rng.uniform(*PEAK_N[self.kind]))
-            depth_mm = _YIELD_MM * peak_n ** (2 / 3)
-            hold_s = float(rng.uniform(*(_TAP_S if self.kind is TouchType.TAP else _HOLD_S)))
-            if self.kind is TouchType.DRAG:
-                angle, half = rng.uniform(0, 2 * np.pi), rng.uniform(*_DRAG_HALF_MM)
-                step = half * np.array([np.cos(angle), np.sin(angle)])
-                here, there = (float((near - step)[0]), float((near - step)[1])), (float((near + step)[0]), float((near + step)[1]))
-            self._rest(time_s + down_s, -depth_mm, here, peak_n)
-            self._rest(time_s + down_s + hold_s, -depth_mm * float(rng.uniform(0.94, 1.0)), there, peak_n)
-            act = Act(self.kind, time_s + down_s, time_s + down_s + hold_s, peak_n)
-        back_s = time_s + down_s + hold_s + float(rng.uniform(*_LIFT_S))
+            peak = float(rng.uniform(*pace.peak_n(self.kind)))
+            depth_mm = _YIELD_MM * peak ** (2 / 3)
+            hold_s = float(rng.uniform(*(pace.tap_s if self.kind is TouchType.TAP else pace.hold_s)))
+            self._rest(time_s + down_s, -depth_mm, here, peak)
+            self._rest(time_s + down_s + hold_s, -depth_mm * float(rng.uniform(0.94, 1.0)), there, peak)
+        act = Act(self.kind, time_s + down_s, time_s + down_s + hold_s, peak)
+        back_s = act.end_s + float(rng.uniform(*pace.lift_s))
+        between_mm = float(rng.uniform(*pace.between_mm))
         self._rest(back_s, between_mm, there)
-        return back_s, act
+        again_s = back_s + float(rng.uniform(*pace.wait_s))
+        self._rest(again_s, between_mm, there)
+        return again_s, act
 
     def at(self, time_s: npt.ArrayLike) -> FingerPath:
         """The path at times (T,) in seconds."""
@@ -140,7 +192,7 @@ class FingerMotion:
         tremor = 1 + 0.04 * np.sin(2 * np.pi * self._tremor_hz * t + self._tremor_phase)
         force_n = np.clip(peak_n * below**1.5 * tremor, 0.0, 3.5)
         touch = force_n >= LEAST_FORCE_N
-        least_mm = HOVER_MM[0] if self.kind is TouchType.HOVER else GRAZE_MM
+        least_mm = self._pace.hover_mm[0] if self.kind is TouchType.HOVER else GRAZE_MM
         drift = (self._drift_mm[..., None] * np.sin(2 * np.pi * self._drift_hz[..., None] * t + self._drift_phase[..., None])).sum(1)
         height_mm = np.maximum(signed_mm + 0.4 * drift[2] * np.clip(signed_mm / 3, 0, 1), least_mm)
         raised = np.clip(signed_mm, 0.0, None) / self._start_mm

@@ -37,11 +37,22 @@ def draw_outfit(rng: np.random.Generator, number: int, outdoors: bool, on_arm_m:
     sleeved = rng.random() < SLEEVE_ODDS[outdoors]
     ends = rng.uniform(*_SLEEVE_END_M, 2)
     if sleeved:
-        colour, stripe, stripe_mm = _garment(number, outdoors)
-        free_m = float(on_arm_m[2]) + MARGIN_M + float(rng.uniform(0.002, _SPARE_M))
-        left.append(Sleeve(max(float(ends[0]), free_m), colour, stripe, stripe_mm))
-        right.append(Sleeve(float(ends[1]), colour, stripe, stripe_mm))
+        both = _sleeves(rng, ends, _garment(np.random.default_rng([FIRST_SEED + number, 5, int(outdoors)])), on_arm_m)
+        left.append(both[0])
+        right.append(both[1])
     return tuple(left), tuple(right)
+
+
+def draw_sleeves(rng: np.random.Generator, on_arm_m: Array) -> tuple[tuple[Item, ...], tuple[Item, ...]]:
+    """Sleeves of any colour on the receiving and on the touching arm; `on_arm_m` (3,) as in `draw_outfit`."""
+    left, right = _sleeves(rng, rng.uniform(*_SLEEVE_END_M, 2), _garment(rng), on_arm_m)
+    return (left,), (right,)
+
+
+def _sleeves(rng: np.random.Generator, ends_m: Array, garment: tuple[Srgb, Srgb, float], on_arm_m: Array) -> tuple[Sleeve, Sleeve]:
+    """The receiving arm's, pushed up beyond the contact, and the touching arm's."""
+    free_m = float(on_arm_m[2]) + MARGIN_M + float(rng.uniform(0.002, _SPARE_M))
+    return Sleeve(max(float(ends_m[0]), free_m), *garment), Sleeve(float(ends_m[1]), *garment)
 
 
 def dress_both(skin: SkinIdentity, outfit: tuple[tuple[Item, ...], tuple[Item, ...]]) -> SkinIdentity:
@@ -53,9 +64,8 @@ def dress_both(skin: SkinIdentity, outfit: tuple[tuple[Item, ...], tuple[Item, .
     return replace(skin, sides=sides)
 
 
-def _garment(number: int, outdoors: bool) -> tuple[Srgb, Srgb, float]:
-    """Colours of the participant's shirt or jacket and the width of its stripes in millimetres."""
-    rng = np.random.default_rng([FIRST_SEED + number, 5, int(outdoors)])
+def _garment(rng: np.random.Generator) -> tuple[Srgb, Srgb, float]:
+    """Colours of a shirt or jacket and the width of its stripes in millimetres."""
     base, second = (rng.uniform(20, 235) + rng.normal(0, 25, 3) for _ in range(2))
     stripe_mm = float(rng.uniform(3, 14)) if rng.random() < _STRIPED else 0.0
     return _srgb(base), _srgb(second), stripe_mm

@@ -6,6 +6,7 @@ import json
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -16,6 +17,9 @@ from egotouch_sdk.synthetic.series import LabelledLayers, render_series
 from egotouch_sdk.synthetic.shards import write_shard
 from egotouch_sdk.synthetic.skin import SkinIdentity, bake_identity
 from egotouch_sdk.synthetic.stage import ImpossibleSceneError
+
+if TYPE_CHECKING:
+    from _typeshed import DataclassInstance
 
 SERIES_PER_SHARD = 8
 #: Skin types of the participants in turn: mostly II to IV as in the paper's study, every type present (our choice).
@@ -68,10 +72,15 @@ def run(job: PatchJob, out: Path, runner: Runner, report: Callable[[str], None])
 
     `report` gets one line per finished shard. Raises `ConfigError` when `out` holds another job's data.
     """
-    out.mkdir(parents=True, exist_ok=True)
-    recipe = out / f"job-{job.seed}.json"
-    if recipe.exists() and json.loads(recipe.read_text()) != asdict(job):
-        raise ConfigError(f"{out} holds another job with seed {job.seed}: {recipe.read_text().strip()}", hint="Use another folder or seed")
-    recipe.write_text(json.dumps(asdict(job)) + "\n")
+    claim(job, out, f"job-{job.seed}.json")
     shards = tuple(Task(f"shard-{job.seed}-{k:05d}.npz", render_shard, (job, k)) for k in range(job.shards))
     return run_jobs(Batch(f"job-{job.seed}", out, shards, "shards", "patches"), runner, report)
+
+
+def claim(job: DataclassInstance, out: Path, name: str) -> None:
+    """Note in the folder `out` which job fills it; raises `ConfigError` when that file says another."""
+    out.mkdir(parents=True, exist_ok=True)
+    recipe = out / name
+    if recipe.exists() and json.loads(recipe.read_text()) != asdict(job):
+        raise ConfigError(f"{out} holds another job: {recipe.read_text().strip()}", hint="Use another folder or seed")
+    recipe.write_text(json.dumps(asdict(job)) + "\n")

@@ -249,11 +249,11 @@ def render_layers(
     mi = mitsuba()
     scene = _scene(mi, host, touching, lights, focus, backdrop, cameras)
     look = mi.load_dict({"type": "aov", "aovs": "al:albedo"})
-    depth = np.array(mi.render(scene, integrator=mi.load_dict({"type": "aov", "aovs": "dd:depth"}), spp=1, seed=seed))[..., 0]
-    albedo = np.array(mi.render(scene, integrator=look, spp=8, seed=seed))[..., :3]
+    albedo = np.array(mi.render(scene, integrator=look, spp=4, seed=seed))[..., :3]
     params = mi.traverse(scene)
     _paint(params, {"host": (1.0, 0.0, 0.0), "touching": (0.0, 1.0, 0.0), "backdrop": (0.0, 0.0, 1.0)})
-    markers = np.array(mi.render(scene, integrator=look, spp=1, seed=seed))[..., :3]
+    marked = np.array(mi.render(scene, integrator=mi.load_dict({"type": "aov", "aovs": "al:albedo,dd:depth"}), spp=1, seed=seed))
+    markers, depth = marked[..., :3], marked[..., 3]
     segment = np.array([SEGMENT_HOST, SEGMENT_TOUCHING, SEGMENT_BACKGROUND], np.uint8)[markers.argmax(-1)]
     segment[markers.max(-1) < _MARKED] = SEGMENT_BACKGROUND
     _paint(params, dict.fromkeys(("host", "touching", "backdrop"), (_GREY, _GREY, _GREY)))

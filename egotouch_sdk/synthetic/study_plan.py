@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import StrEnum
+from math import radians, tan
 
 import numpy as np
 
@@ -56,6 +57,22 @@ LIGHTS: dict[StudyLight, LightFacts] = {
     StudyLight.OVERCAST: LightFacts(True, 0.35, ("panel",), LightMix.SOFT, (4_000, 20_000), (1 / 1000, 1 / 250)),
     StudyLight.SHADE: LightFacts(True, 0.25, ("sun", "panel"), LightMix.MIXED, (1_500, 8_000), (1 / 500, 1 / 150)),
 }
+
+
+@dataclass(frozen=True, slots=True)
+class StudyCamera:
+    """A camera on a headset: pixels across its picture and its horizontal field of view in degrees."""
+
+    width_px: int
+    field_deg: float
+
+    def px_per_mm(self, distance_m: float) -> float:
+        """Pixels on a millimetre of skin at a distance in metres."""
+        return self.width_px / (2e3 * distance_m * tan(radians(self.field_deg / 2)))
+
+
+#: Participants wear these in turn: a 1080p camera and a pass-through camera of 1280 px, both of an ordinary field (our choice).
+STUDY_CAMERAS = (StudyCamera(1920, 70.0), StudyCamera(1280, 80.0))
 
 
 @dataclass(frozen=True, slots=True)
