@@ -39,7 +39,8 @@ _METERING, _MIDDLE_LUMA, _SKIN_LEVEL = 0.55, 0.36, (0.05, 0.42)
 #: Bounds that keep the noise of few samples from looking like blotches and hair, and the spread of tone from one round to the next.
 _MAX_OCCLUSION, _MIN_SAMPLE_BLUR_PX, _TONE_SPREAD = 1.7, 1.5, 0.04
 #: What the pictures of a camera in good order look like: the middle of the training camera's ranges (our choice).
-_CONTRAST, _HAZE, _SATURATION, _SHARPENING, _OPTICAL_BLUR_PX, _JPEG = (0.8, 1.12), (-0.03, 0.05), (0.8, 1.3), (0.2, 0.9), (0.4, 1.1), (70, 96)
+_CONTRAST, _HAZE, _SATURATION = (0.8, 1.12), (-0.03, 0.05), (0.8, 1.3)
+_SHARPENING, _OPTICAL_BLUR_PX, _JPEG = (0.2, 0.9), (0.4, 1.1), (70, 96)
 
 
 @dataclass(frozen=True, slots=True)

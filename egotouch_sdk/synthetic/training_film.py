@@ -25,7 +25,7 @@ FRAMES = 12
 #: Films of one pose, each with its own light and motion.
 FILMS_PER_SCENE = 2
 _MAX_DRAWS = 400
-_KINDS = {TouchType.TAP: 0.30, TouchType.LIGHT_PRESS: 0.22, TouchType.HARD_PRESS: 0.18, TouchType.DRAG: 0.10, TouchType.HOVER: 0.20}
+_KINDS = {TouchType.TAP: 0.28, TouchType.LIGHT_PRESS: 0.26, TouchType.HARD_PRESS: 0.20, TouchType.DRAG: 0.10, TouchType.HOVER: 0.16}
 #: Most films have the frame rate of ordinary cameras, the others any in this range (our choice).
 _FPS, _ORDINARY_FPS, _ORDINARY_SHARE = (15.0, 60.0), 30.0, 0.6
 #: Length of the motion that a film is cut from, seconds, and the share of films that hold an edge of a touch, where there is one.

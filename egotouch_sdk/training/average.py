@@ -11,12 +11,12 @@ from torch import Tensor
 
 from egotouch_sdk.errors import ConfigError
 from egotouch_sdk.training.export import ModelFacts, write_model
+from egotouch_sdk.training.folder import Rendered, read_folder
 from egotouch_sdk.training.network import TouchNetwork
 from egotouch_sdk.training.run import DATA, averaged_state, calibrate_and_score, census, earlier_stage
-from egotouch_sdk.training.shards import RenderedPatch, read_folder
 
 VIEWS = 2
-THRESHOLD_FROM = "rendered people who trained none of the averaged runs; 2.6 % of their hovers reach it"
+THRESHOLD_FROM = "rendered people who trained none of the averaged runs; 2.6 % of their hovers of 1 mm and more reach it"
 
 
 def average(checkpoints: Sequence[Path], data: Path, out: Path, seed: int) -> Path:
@@ -40,7 +40,7 @@ def mean_state(states: Sequence[dict[str, Tensor]]) -> dict[str, Tensor]:
     return {name: torch.stack([state[name].double() for state in states]).mean(0).to(value.dtype) for name, value in first.items()}
 
 
-def export_calibrated(network: TouchNetwork, patches: Sequence[RenderedPatch], out: Path, training: dict[str, Any], seed: int) -> Path:
+def export_calibrated(network: TouchNetwork, patches: Sequence[Rendered], out: Path, training: dict[str, Any], seed: int) -> Path:
     """Calibrate a network on rendered patches, write it with its scores on them, return the model file's path."""
     shipped, calibration, measured = calibrate_and_score(network, patches, VIEWS, seed)
     facts = {

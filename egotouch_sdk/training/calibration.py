@@ -33,21 +33,21 @@ class Calibration:
         return {"scale": round(self.scale, 4), "shift": round(self.shift, 4)}
 
 
-def calibrate(touch: npt.NDArray[np.bool_], logit: npt.NDArray[np.floating]) -> Calibration:
-    """Fit scale and shift (Platt) with both classes weighing the same, then place the thresholds.
+def calibrate(touch: npt.NDArray[np.bool_], logit: npt.NDArray[np.floating], hover: npt.NDArray[np.bool_]) -> Calibration:
+    """Fit scale and shift (Platt) with both classes weighing the same, then place the thresholds; all arrays (N,).
 
-    `down` is the probability that `FALSE_TOUCH_SHARE` of the hovers reach.
+    `down` is the probability that `FALSE_TOUCH_SHARE` of the frames marked in `hover` reach.
     """
     weight = np.where(touch, 0.5 / max(int(touch.sum()), 1), 0.5 / max(int((~touch).sum()), 1))
     scale, shift = _fit_logistic(touch.astype(float), np.asarray(logit, float), weight)
     probability = 1 / (1 + np.exp(-(scale * logit + shift)))
-    down, up = place_thresholds(touch, probability)
+    down, up = place_thresholds(probability[hover])
     return Calibration(scale, shift, down, up)
 
 
-def place_thresholds(touch: npt.NDArray[np.bool_], probability: npt.NDArray[np.floating]) -> tuple[float, float]:
-    """The thresholds (down, up) for calibrated probabilities, by the rule of `calibrate`."""
-    down = round(float(np.clip(np.quantile(probability[~touch], 1 - FALSE_TOUCH_SHARE), *DOWN_RANGE)), 4)
+def place_thresholds(hovering: npt.NDArray[np.floating]) -> tuple[float, float]:
+    """The thresholds (down, up) from calibrated probabilities (N,) of hovers, by the rule of `calibrate`."""
+    down = round(float(np.clip(np.quantile(hovering, 1 - FALSE_TOUCH_SHARE), *DOWN_RANGE)), 4)
     up = round(float(1 / (1 + np.exp(-(np.log(down / (1 - down)) - HYSTERESIS_LOGITS)))), 4)
     return down, up
 

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 EXAMPLES = """\
   egotouch train --data data/patches --out out/touch
   egotouch train --data data/patches --out out/touch --resume      after an interruption
+  egotouch train --data data/films --out out/memory --start-from out/touch/last.ckpt     films teach it to remember
   egotouch train --data data/patches --out out/paper --recipe paper
   egotouch train --data data/patches --out out/touch --trunk model.safetensors     ImageNet weights that you have fetched
   egotouch train --data data/others --out out/mean --average out/a/last.ckpt out/b/last.ckpt
@@ -32,14 +33,14 @@ A file of trials holds [recipe] for all and one [trials.NAME] each, with fields 
 
 def add_parser(subparsers: Subparsers) -> None:
     """Add `train` to the command line."""
-    parser = add_command(subparsers, "train", "train the touch model on rendered patches", EXAMPLES)
-    parser.add_argument("--data", type=Path, required=True, metavar="DIR", help="folder of rendered .npz shards")
+    parser = add_command(subparsers, "train", "train the touch model on rendered patches or films", EXAMPLES)
+    parser.add_argument("--data", type=Path, required=True, metavar="DIR", help="folder of rendered .npz shards, of patches or of films")
     parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="where checkpoint, model, manifest and model card go")
     parser.add_argument(
         "--recipe",
-        choices=("default", "shipped", "paper"),
+        choices=("default", "stills", "films", "paper"),
         default="default",
-        help="ours for CPUs (default), the shipped model's for a GPU, or the paper's",
+        help="ours for CPUs (default), the shipped model's for a GPU (stills: patches, films: films), or the paper's",
     )
     parser.add_argument("--epochs", type=positive_int, metavar="N", help="passes over the renders, each with new cameras")
     parser.add_argument(
@@ -79,7 +80,7 @@ def train(options: argparse.Namespace) -> int:
         raise MissingExtraError("training", "train") from missing
     from dataclasses import replace
 
-    recipe = {"default": Recipe, "shipped": Recipe.shipped, "paper": Recipe.paper}[options.recipe]()
+    recipe = {"default": Recipe, "stills": Recipe.stills, "films": Recipe.films, "paper": Recipe.paper}[options.recipe]()
     chosen = {"epochs": options.epochs, "learning_rate": options.learning_rate, "picture_px": options.picture_px, "seed": options.seed}
     recipe = replace(recipe, **{name: value for name, value in chosen.items() if value is not None})
     machine = Machine(options.threads, options.workers, options.max_minutes)

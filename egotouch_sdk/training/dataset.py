@@ -1,4 +1,4 @@
-"""Turns rendered patches into training batches: a fresh random camera for every view of every patch."""
+"""Turns renders into training batches: a fresh random camera for every view of every patch or film."""
 
 from __future__ import annotations
 
@@ -18,22 +18,17 @@ from egotouch_sdk.patches import HOST_UNKNOWN, normalise
 from egotouch_sdk.synthetic.air import in_the_air
 from egotouch_sdk.synthetic.camera import photograph
 from egotouch_sdk.synthetic.camera_settings import draw_settings
+from egotouch_sdk.training.augment import DRAG_MOTION, DRAG_SHARE, FLIP_SHARE, HOST_UNKNOWN_SHARE, POLAR_JITTER
+from egotouch_sdk.training.films import RenderedFilm, before_clutter, view_film
+from egotouch_sdk.training.folder import Rendered
 from egotouch_sdk.training.shards import HOVER_MAX_MM, PatchLabel, RenderedPatch
-
-#: Share of training samples whose host place is withheld, so that the model also works when the host is unknown.
-HOST_UNKNOWN_SHARE = 0.5
-#: Spread of the tracker's error on R (relative) and theta (radians) in training (our choice).
-POLAR_JITTER = (0.05, 0.06)
-#: Share of hovers whose surroundings are replaced by clutter, so that a hand before anything but skin is no touch (our choice).
-AIR_SHARE = 0.08
-#: Share of touches that may be drags, and how far these move during an exposure relative to a finger in the air (our choice).
-DRAG_SHARE, DRAG_MOTION = 0.35, 0.35
-#: Share of mirrored training samples, their theta negated.
-FLIP_SHARE = 0.5
 
 
 class Sample(NamedTuple):
-    """Tensors of one sample or one batch: `patch` (3, 100, 100), `polar` (2,), `touch`, `force_n`, `hover_mm` scalars."""
+    """Tensors of one sample of T frames, T = 1 for a patch, or of a batch with N in front.
+
+    `patch` (T, 3, 100, 100), `polar` (T, 2), `touch`, `force_n`, `hover_mm` (T,).
+    """
 
     patch: Tensor
     polar: Tensor
@@ -65,9 +60,9 @@ def _motion_on_skin(path_px: tuple[float, float], rng: np.random.Generator) -> t
 
 
 class PatchDataset(Dataset[Sample]):
-    """Item (index, seed) is patch `index` seen by the random camera of `seed`; `air_share` of the hovers lose their host."""
+    """Item (index, seed) is patch or film `index` seen by the random camera of `seed`; `air_share` of the hovers lose their host."""
 
-    def __init__(self, rendered: Sequence[RenderedPatch], air_share: float = 0.0) -> None:
+    def __init__(self, rendered: Sequence[Rendered], air_share: float = 0.0) -> None:
         self.rendered = rendered
         self.air_share = air_share
 
@@ -78,16 +73,21 @@ class PatchDataset(Dataset[Sample]):
         cv2.setNumThreads(1)
         index, seed = key
         rendered, rng = self.rendered[index], np.random.default_rng(seed)
-        if not rendered.label.touch and rng.random() < self.air_share:
-            rendered = RenderedPatch(in_the_air(rendered.layers, rng), replace(rendered.label, hover_mm=HOVER_MAX_MM))
-        image, polar = view(rendered, rng)
-        label = rendered.label
+        in_air = not any(label.touch for label in rendered.labels) and rng.random() < self.air_share
+        if isinstance(rendered, RenderedFilm):
+            rendered = before_clutter(rendered, rng) if in_air else rendered
+            images, polar = view_film(rendered, rng)
+        else:
+            if in_air:
+                rendered = RenderedPatch(in_the_air(rendered.layers, rng), replace(rendered.label, hover_mm=HOVER_MAX_MM))
+            image, place = view(rendered, rng)
+            images, polar = image[None], np.array([place], np.float32)
         return Sample(
-            patch=torch.from_numpy(normalise(image[None])[0]),
-            polar=torch.tensor(polar, dtype=torch.float32),
-            touch=torch.tensor(float(label.touch)),
-            force_n=torch.tensor(label.force_n),
-            hover_mm=torch.tensor(label.hover_mm),
+            patch=torch.from_numpy(normalise(images)),
+            polar=torch.from_numpy(polar),
+            touch=torch.tensor([float(label.touch) for label in rendered.labels]),
+            force_n=torch.tensor([label.force_n for label in rendered.labels]),
+            hover_mm=torch.tensor([label.hover_mm for label in rendered.labels]),
         )
 
 
@@ -122,8 +122,8 @@ def collate(samples: Sequence[Sample]) -> Sample:
     return Sample(*(torch.stack(column) for column in zip(*samples, strict=True)))
 
 
-def fixed_views(rendered: Sequence[RenderedPatch], views: int, seed: int) -> tuple[list[int], Sample]:
-    """The held-out pictures: `views` fixed random cameras per patch, as patch indices and one batch."""
+def fixed_views(rendered: Sequence[Rendered], views: int, seed: int) -> tuple[list[int], Sample]:
+    """The held-out pictures: `views` fixed random cameras per patch or film, as their indices and one batch."""
     keys = [(i, int(np.random.default_rng([seed, i, v]).integers(2**62))) for v in range(views) for i in range(len(rendered))]
     dataset = PatchDataset(rendered)
     return [index for index, _ in keys], collate([dataset[key] for key in keys])

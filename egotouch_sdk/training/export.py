@@ -14,9 +14,9 @@ import torch
 
 from egotouch_sdk.errors import ModelError
 from egotouch_sdk.observation import PATCH_PX
-from egotouch_sdk.touch.manifest import FORCE_SIGMA, OUTPUTS
+from egotouch_sdk.touch.manifest import FORCE_SIGMA, MEMORY, NEXT_MEMORY, OUTPUTS
 from egotouch_sdk.training.model_card import CARD_FILE, MANIFEST_FILE, model_card
-from egotouch_sdk.training.network import TouchNetwork, count_parameters, reparameterise
+from egotouch_sdk.training.network import MEMORY_SIZE, TouchNetwork, count_parameters, reparameterise
 
 MODEL_FILE = "touch.onnx"
 GOLDEN_FILE = "touch_golden.npz"
@@ -27,7 +27,9 @@ PARITY_TOLERANCE = 1e-4
 #: Patches in the golden pair.
 GOLDEN_SIZE = 4
 ONNX_OPSET = 17
-OUTPUT_NAMES = (*OUTPUTS, FORCE_SIGMA)
+INPUT_NAMES = ("patch", "polar", MEMORY)
+OUTPUT_NAMES = (*OUTPUTS, FORCE_SIGMA, NEXT_MEMORY)
+Floats = npt.NDArray[np.float32]
 
 
 @dataclass(frozen=True)
@@ -56,11 +58,11 @@ def write_model(network: TouchNetwork, facts: ModelFacts, folder: Path) -> Path:
     """
     folder.mkdir(parents=True, exist_ok=True)
     path = folder / MODEL_FILE
-    patch, polar = golden_inputs()
-    expected = run_torch(network, patch, polar)
+    inputs = golden_inputs()
+    expected = run_torch(network, inputs)
     write_onnx(reparameterise(network), path)
-    check_parity(path, patch, polar, expected)
-    golden: dict[str, Any] = {"patch": patch, "polar": polar, **dict(zip(OUTPUT_NAMES, expected, strict=True))}
+    check_parity(path, inputs, expected)
+    golden: dict[str, Any] = {**inputs, **dict(zip(OUTPUT_NAMES, expected, strict=True))}
     np.savez_compressed(folder / GOLDEN_FILE, **golden)
     manifest = build_manifest(network, facts, path)
     (folder / MANIFEST_FILE).write_text(json.dumps(manifest, indent=2) + "\n")
@@ -68,21 +70,22 @@ def write_model(network: TouchNetwork, facts: ModelFacts, folder: Path) -> Path:
     return path
 
 
-def golden_inputs() -> tuple[npt.NDArray[np.float32], npt.NDArray[np.float32]]:
-    """Fixed inputs for the golden pair: random patches with the mean and spread of normalised ones, and four places."""
+def golden_inputs() -> dict[str, Floats]:
+    """Fixed inputs for the golden pair: random patches with the mean and spread of normalised ones, four places, and four memories."""
     rng = np.random.default_rng(0)
     patch = rng.standard_normal((GOLDEN_SIZE, 3, PATCH_PX, PATCH_PX), np.float32)
     polar = np.array([[0.0, 0.0], [0.8, 0.3], [1.4, -0.6], [2.1, 2.9]], np.float32)
-    return patch, polar
+    memory = rng.uniform(-1, 1, (GOLDEN_SIZE, MEMORY_SIZE)).astype(np.float32) * np.array([[0.0], [0.1], [0.5], [1.0]], np.float32)
+    return dict(zip(INPUT_NAMES, (patch, polar, memory), strict=True))
 
 
-def run_torch(network: TouchNetwork, patch: npt.NDArray[np.float32], polar: npt.NDArray[np.float32]) -> tuple[npt.NDArray[np.float32], ...]:
-    """The network's three outputs, (N,) each, in evaluation mode; its own mode is restored."""
+def run_torch(network: TouchNetwork, inputs: dict[str, Floats]) -> tuple[Floats, ...]:
+    """The network's outputs in evaluation mode; its own mode is restored."""
     training = network.training
     network.eval()
     try:
         with torch.no_grad():
-            outputs = network(torch.from_numpy(patch), torch.from_numpy(polar))
+            outputs = network(*(torch.from_numpy(inputs[name]) for name in INPUT_NAMES))
     finally:
         network.train(training)
     return tuple(output.numpy() for output in outputs)
@@ -90,32 +93,27 @@ def run_torch(network: TouchNetwork, patch: npt.NDArray[np.float32], polar: npt.
 
 def write_onnx(folded: TouchNetwork, path: Path) -> None:
     """Write a folded network as ONNX with a free batch size."""
-    example = (torch.zeros(2, 3, PATCH_PX, PATCH_PX), torch.zeros(2, 2))
+    example = (torch.zeros(2, 3, PATCH_PX, PATCH_PX), torch.zeros(2, 2), torch.zeros(2, MEMORY_SIZE))
     batch = {0: "batch"}
     torch.onnx.export(
         folded.eval(),
         example,
         str(path),
-        input_names=["patch", "polar"],
+        input_names=list(INPUT_NAMES),
         output_names=list(OUTPUT_NAMES),
-        dynamic_axes=dict.fromkeys(("patch", "polar", *OUTPUT_NAMES), batch),
+        dynamic_axes=dict.fromkeys((*INPUT_NAMES, *OUTPUT_NAMES), batch),
         opset_version=ONNX_OPSET,
         dynamo=False,
     )
 
 
-def check_parity(
-    path: Path,
-    patch: npt.NDArray[np.float32],
-    polar: npt.NDArray[np.float32],
-    expected: tuple[npt.NDArray[np.float32], ...],
-) -> None:
+def check_parity(path: Path, inputs: dict[str, Floats], expected: tuple[Floats, ...]) -> None:
     """Raise `ModelError` unless the model file gives the expected outputs for the whole batch and for one patch alone."""
     from egotouch_sdk.inference import create_session
 
     session = create_session(path)
-    for count in (len(patch), 1):
-        got = session.run(list(OUTPUT_NAMES), {"patch": patch[:count], "polar": polar[:count]})
+    for count in (GOLDEN_SIZE, 1):
+        got = session.run(list(OUTPUT_NAMES), {name: values[:count] for name, values in inputs.items()})
         worst = max(float(np.abs(g - e[:count]).max()) for g, e in zip(got, expected, strict=True))
         if worst > PARITY_TOLERANCE:
             raise ModelError(f"{path.name} differs from the trained network by {worst:.2g}", hint="Report your torch and onnx versions")
@@ -131,11 +129,13 @@ def build_manifest(network: TouchNetwork, facts: ModelFacts, path: Path) -> dict
         "inputs": {
             "patch": {"dtype": "float32", "shape": ["N", 3, PATCH_PX, PATCH_PX], "meaning": "RGB through egotouch_sdk.patches.normalise"},
             "polar": {"dtype": "float32", "shape": ["N", 2], "meaning": "(r_palms, theta_rad); (0, 0) when the host is unknown"},
+            MEMORY: {"dtype": "float32", "shape": ["N", MEMORY_SIZE], "meaning": "next_memory of the finger's last frame, zeros at first"},
         },
         "outputs": {
             "touch_logit": {"dtype": "float32", "shape": ["N"], "meaning": "touch probability is its logistic"},
             "force_n": {"dtype": "float32", "shape": ["N"], "meaning": "newtons, 0..3.5"},
             "force_sigma_n": {"dtype": "float32", "shape": ["N"], "meaning": "standard error of force_n on touches, newtons"},
+            NEXT_MEMORY: {"dtype": "float32", "shape": ["N", MEMORY_SIZE], "meaning": "what to remember of the finger"},
         },
         "threshold": {"down": facts.threshold_down, "up": facts.threshold_up},
         "parameters": {

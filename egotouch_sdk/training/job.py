@@ -12,10 +12,10 @@ from typing import Any
 
 from egotouch_sdk.errors import ConfigError
 from egotouch_sdk.jobs import Task
+from egotouch_sdk.training.folder import read_folder
 from egotouch_sdk.training.recipe import Recipe
 from egotouch_sdk.training.run import LAST_CHECKPOINT, Machine, train
 from egotouch_sdk.training.score import score_model
-from egotouch_sdk.training.shards import read_folder
 
 #: What was asked of the run, its output, and its scores on participants that were left out.
 PLAN_FILE, LOG_FILE, SCORES_FILE = "run.json", "train.log", "left_out.json"

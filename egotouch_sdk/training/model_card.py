@@ -15,8 +15,8 @@ CARD_FILE = "MODEL_CARD.md"
 _INTRO = """# Touch model
 
 FastViT-T8 trunk, 126 features with (R, theta), 128 hidden units; one patch gives a touch logit and a force in newtons
-(EgoTouch, UIST 2024, section 4), and the standard error of that force. Folded to plain convolutions
-for shipping. Version: **{version}**. Licence: {licence}.
+(EgoTouch, UIST 2024, section 4), and the standard error of that force. A gated recurrent cell over the hidden units remembers
+each finger's earlier frames. Folded to plain convolutions for shipping. Version: **{version}**. Licence: {licence}.
 
 | form | parameters | the paper's |
 | --- | --- | --- |

@@ -16,7 +16,7 @@ from torch.optim.swa_utils import AveragedModel, get_ema_multi_avg_fn
 from egotouch_sdk.evaluation.metrics import force_scores, touch_scores
 from egotouch_sdk.observation import FORCE_MAX_N
 from egotouch_sdk.training.dataset import Sample
-from egotouch_sdk.training.network import HIDDEN, TouchNetwork
+from egotouch_sdk.training.network import HIDDEN, MEMORY_SIZE, TouchNetwork
 from egotouch_sdk.training.recipe import Recipe
 from egotouch_sdk.training.shards import HOVER_MAX_MM
 
@@ -34,8 +34,8 @@ class TouchModule(lightning.LightningModule):
         super().__init__()
         self.recipe = recipe
         self.touch_weight = (1 - touch_share) / touch_share
-        self.network = TouchNetwork(recipe.drop_path, recipe.dropout, recipe.mirrored).use_fast_layout()
-        self.hover_head = nn.Linear(HIDDEN, 1)
+        self.network = TouchNetwork(recipe.drop_path, recipe.dropout).use_fast_layout()
+        self.hover_head = nn.Linear(HIDDEN + MEMORY_SIZE, 1)
         self.average = AveragedModel(self.network, multi_avg_fn=get_ema_multi_avg_fn(recipe.average_decay), use_buffers=True)
         self.held_out: list[tuple[Tensor, ...]] = []
         self.trunk: dict[str, Any] | None = None
@@ -56,23 +56,38 @@ class TouchModule(lightning.LightningModule):
         size = self.recipe.picture_px
         return patch if size == patch.shape[-1] else interpolate(patch, (size, size), mode="bilinear", antialias=True)
 
+    def embed(self, network: TouchNetwork, batch: Sample) -> Tensor:
+        """Hidden values (N, T, 128) of a batch."""
+        count, frames = batch.touch.shape
+        return network.embed(self.shrink(batch.patch.flatten(0, 1)), batch.polar.flatten(0, 1)).reshape(count, frames, HIDDEN)
+
     def training_step(self, batch: Sample, _: int) -> Tensor:
+        hidden = self.embed(self.network, batch)
+        loss = self.loss(self.network.film(hidden), batch, log=True)
+        if self.recipe.still_weight and batch.touch.shape[1] > 1:
+            alone = self.network.still(hidden.flatten(0, 1)).reshape(*batch.touch.shape, -1)
+            loss = loss + self.recipe.still_weight * self.loss(alone, batch, log=False)
+        return loss
+
+    def loss(self, state: Tensor, batch: Sample, log: bool) -> Tensor:
+        """The loss of states (N, T, 256)."""
         recipe = self.recipe
-        hidden = self.network.embed(self.shrink(batch.patch), batch.polar)
-        logit, force_n, sigma_n = self.network.decide(hidden)
+        logit, force_n, sigma_n = self.network.decide(state)
         target = batch.touch * (1 - recipe.label_smoothing) + recipe.label_smoothing / 2
         weight = 1 + batch.touch * (self.touch_weight - 1)
         touch_loss = binary_cross_entropy_with_logits(logit, target, weight)
-        force_loss = (batch.touch * (force_n - batch.force_n) ** 2).sum() / batch.touch.sum().clamp(min=1) / FORCE_MAX_N**2
-        loss = touch_loss + recipe.force_weight * force_loss
+        touches = batch.touch.sum().clamp(min=1)
+        force_loss = (batch.touch * (force_n - batch.force_n) ** 2).sum() / touches / FORCE_MAX_N**2
+        total = touch_loss + recipe.force_weight * force_loss
         if recipe.hover_weight:
-            loss = loss + recipe.hover_weight * mse_loss(self.hover_head(hidden)[:, 0], hover_target(batch.hover_mm))
+            total = total + recipe.hover_weight * mse_loss(self.hover_head(state)[..., 0], hover_target(batch.hover_mm))
         if recipe.sigma_weight:
             surprise = torch.log(sigma_n) + 0.5 * ((force_n.detach() - batch.force_n) / sigma_n) ** 2
-            loss = loss + recipe.sigma_weight * (batch.touch * surprise).sum() / batch.touch.sum().clamp(min=1)
-        self.log("loss", touch_loss, prog_bar=True, on_step=False, on_epoch=True, batch_size=len(logit))
-        self.log("force_loss", force_loss, prog_bar=True, on_step=False, on_epoch=True, batch_size=len(logit))
-        return loss
+            total = total + recipe.sigma_weight * (batch.touch * surprise).sum() / touches
+        if log:
+            self.log("loss", touch_loss, prog_bar=True, on_step=False, on_epoch=True, batch_size=len(logit))
+            self.log("force_loss", force_loss, prog_bar=True, on_step=False, on_epoch=True, batch_size=len(logit))
+        return total
 
     def on_train_batch_end(self, *_: Any) -> None:
         if self.recipe.average_decay:
@@ -81,8 +96,9 @@ class TouchModule(lightning.LightningModule):
             self.average.update_parameters(self.network)
 
     def validation_step(self, batch: Sample, _: int) -> None:
-        logit, force_n, _ = self.shipped_network.eval()(self.shrink(batch.patch), batch.polar)
-        self.held_out.append((logit, force_n, batch.touch, batch.force_n))
+        network = self.shipped_network.eval()
+        logit, force_n, _ = network.decide(network.film(self.embed(network, batch)))
+        self.held_out.append(tuple(values.flatten() for values in (logit, force_n, batch.touch, batch.force_n)))
 
     def on_validation_epoch_end(self) -> None:
         logit, force_n, touch, true_n = (torch.cat(parts).float().cpu().numpy() for parts in zip(*self.held_out, strict=True))

@@ -1,6 +1,7 @@
-"""The touch network: FastViT-T8 trunk, then the EgoTouch head with (R, theta).
+"""The touch network: FastViT-T8 trunk, the EgoTouch head with (R, theta), and a memory of the finger's earlier frames.
 
-Head: EgoTouch, UIST 2024, section 4: trunk -> 126 features, (R, theta) appended -> 128 -> ReLU -> touch logit and force.
+Head: EgoTouch, UIST 2024, section 4: trunk -> 126 features, (R, theta) appended -> 128 -> ReLU -> touch logit and force. The paper judges
+every frame alone; here a gated recurrent cell (Cho et al. 2014) over the 128 values remembers, and both feed the outputs.
 """
 
 from __future__ import annotations
@@ -19,24 +20,38 @@ EXPANSION_RATIO = 2
 #: Widths of the EgoTouch head (UIST 2024, section 4).
 FEATURES = 126
 HIDDEN = 128
+#: Values that are remembered of a finger (our choice).
+MEMORY_SIZE = 128
 #: Bounds of the logarithm of the standard error as a share of 3.5 N: 0.02 N to 3.5 N.
 LOG_SIGMA_RANGE = (-5.0, 0.0)
 
 
-class TouchNetwork(nn.Module):
-    """Patches and (R, theta) in, touch logit and force out.
+class Memory(nn.Module):
+    """Gated recurrent cell: hidden values (N, 128) and what is remembered (N, 128) in, what is remembered now out."""
 
-    `patch` (N, 3, 100, 100) float32, normalised by `egotouch_sdk.patches.normalise`; `polar` (N, 2) = (r_palms, theta_rad).
-    Returns `touch_logit` (N,), `force_n` (N,) in newtons, unbounded while training, clamped to 0..3.5 in evaluation mode, and
-    `force_sigma_n` (N,), the standard error of that force on touches; it is read off the hidden values and never shapes them.
-    A touch has no handedness: with `mirrored`, in evaluation mode, the outputs are the mean over the patch and its mirror image (theta
-    negated), at twice the cost.
+    def __init__(self) -> None:
+        super().__init__()
+        self.gates = nn.Linear(HIDDEN + MEMORY_SIZE, 2 * MEMORY_SIZE)
+        self.candidate = nn.Linear(HIDDEN + MEMORY_SIZE, MEMORY_SIZE)
+
+    def forward(self, hidden: Tensor, memory: Tensor) -> Tensor:
+        update, reset = torch.sigmoid(self.gates(torch.cat([hidden, memory], 1))).chunk(2, 1)
+        fresh = torch.tanh(self.candidate(torch.cat([hidden, reset * memory], 1)))
+        return memory + update * (fresh - memory)
+
+
+class TouchNetwork(nn.Module):
+    """Patches, (R, theta) and what is remembered of their fingers in; touch logit, force and what to remember out.
+
+    `patch` (N, 3, 100, 100) float32, normalised by `egotouch_sdk.patches.normalise`; `polar` (N, 2) = (r_palms, theta_rad); `memory`
+    (N, 128), zeros for a finger's first frame.
+    Returns `touch_logit` (N,), `force_n` (N,) in newtons, unbounded while training, clamped to 0..3.5 in evaluation mode,
+    `force_sigma_n` (N,), the standard error of that force on touches (it is read off the state and never shapes it), and the next memory.
     `drop_path` is the largest share of skipped residuals, `dropout` the share of dropped features, both in training only.
     """
 
-    def __init__(self, drop_path: float = 0.0, dropout: float = 0.0, mirrored: bool = False) -> None:
+    def __init__(self, drop_path: float = 0.0, dropout: float = 0.0) -> None:
         super().__init__()
-        self.mirrored = mirrored
         rates = iter(torch.linspace(0, drop_path, sum(STAGE_DEPTHS)).tolist())
         layers: list[nn.Module] = [stem()]
         for stage, (depth, width) in enumerate(zip(STAGE_DEPTHS, STAGE_WIDTHS, strict=True)):
@@ -50,30 +65,40 @@ class TouchNetwork(nn.Module):
         self.features = nn.Linear(EXPANSION_RATIO * last, FEATURES)
         self.dropout = nn.Dropout(dropout)
         self.hidden = nn.Linear(FEATURES + 2, HIDDEN)
-        self.outputs = nn.Linear(HIDDEN, 2)
-        self.spread = nn.Linear(HIDDEN, 1)
+        self.memory = Memory()
+        self.outputs = nn.Linear(HIDDEN + MEMORY_SIZE, 2)
+        self.spread = nn.Linear(HIDDEN + MEMORY_SIZE, 1)
 
     def embed(self, patch: Tensor, polar: Tensor) -> Tensor:
-        """The 128 hidden values (N, 128) that all outputs are read from."""
+        """The 128 hidden values (N, 128) of each frame alone."""
         pooled = self.excite(self.expand(self.trunk(patch))).mean((2, 3))
         place = torch.stack([polar[:, 0], polar[:, 1] / math.pi], 1)
         joined = torch.cat([self.dropout(self.features(pooled)), place], 1)
         return torch.relu(self.hidden(joined))
 
-    def decide(self, hidden: Tensor) -> tuple[Tensor, Tensor, Tensor]:
-        """Touch logit (N,), force (N,) and its standard error (N,) in newtons of the hidden values."""
-        logit, force = self.outputs(hidden).unbind(1)
+    def still(self, hidden: Tensor) -> Tensor:
+        """The state (N, 256) that all outputs are read from, of frames that are a finger's first: hidden values and new memory."""
+        return torch.cat([hidden, self.memory(hidden, hidden.new_zeros(len(hidden), MEMORY_SIZE))], 1)
+
+    def film(self, hidden: Tensor) -> Tensor:
+        """The states (N, T, 256) of films of T frames, from their hidden values (N, T, 128)."""
+        memory, states = hidden.new_zeros(len(hidden), MEMORY_SIZE), []
+        for frame in hidden.unbind(1):
+            memory = self.memory(frame, memory)
+            states.append(torch.cat([frame, memory], 1))
+        return torch.stack(states, 1)
+
+    def decide(self, state: Tensor) -> tuple[Tensor, Tensor, Tensor]:
+        """Touch logit, force and its standard error in newtons of states (..., 256), each (...)."""
+        logit, force = self.outputs(state).unbind(-1)
         force_n = force * FORCE_MAX_N
-        sigma_n = self.spread(hidden.detach())[:, 0].clamp(*LOG_SIGMA_RANGE).exp() * FORCE_MAX_N
+        sigma_n = self.spread(state.detach())[..., 0].clamp(*LOG_SIGMA_RANGE).exp() * FORCE_MAX_N
         return logit, force_n if self.training else force_n.clamp(0.0, FORCE_MAX_N), sigma_n
 
-    def forward(self, patch: Tensor, polar: Tensor) -> tuple[Tensor, Tensor, Tensor]:
-        if self.training or not self.mirrored:
-            return self.decide(self.embed(patch, polar))
-        mirrored = polar * polar.new_tensor([1.0, -1.0])
-        both = self.decide(self.embed(torch.cat([patch, patch.flip(3)]), torch.cat([polar, mirrored])))
-        logit, force_n, sigma_n = (value.reshape(2, -1).mean(0) for value in both)
-        return logit, force_n, sigma_n
+    def forward(self, patch: Tensor, polar: Tensor, memory: Tensor) -> tuple[Tensor, Tensor, Tensor, Tensor]:
+        hidden = self.embed(patch, polar)
+        following = self.memory(hidden, memory)
+        return *self.decide(torch.cat([hidden, following], 1)), following
 
     def use_fast_layout(self) -> TouchNetwork:
         """Keep activations channel-last, about a third faster on CPUs; the first block stays as it is (torch 2.13 crashes on it)."""

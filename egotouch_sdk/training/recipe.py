@@ -20,7 +20,7 @@ class Recipe:
     `picture_px` below 100 shrinks the pictures: 64 is 2.4 times faster and good for a first stage to start the real run from.
     `label_smoothing` moves targets towards one half. `hover_weight` weighs an auxiliary hover-height output, dropped on export,
     `sigma_weight` the standard error of the force, which learns from the network's errors and does not move them.
-    `mirrored` ships the mean over a patch and its mirror image.
+    `still_weight` weighs the loss of each frame of a film judged alone, as a finger's first frame is.
     `held_out_share` of the patches, whole participants, choose the threshold and never train.
     """
 
@@ -37,7 +37,7 @@ class Recipe:
     drop_path: float = 0.05
     dropout: float = 0.1
     average_decay: float = 0.995
-    mirrored: bool = False
+    still_weight: float = 0.5
     held_out_share: float = 0.12
     held_out_views: int = 2
     seed: int = 1
@@ -48,16 +48,24 @@ class Recipe:
             raise ConfigError(f"recipe has {counts}; need 1, 2, 1 or more")
         if not 32 <= self.picture_px <= PATCH_PX:
             raise ConfigError(f"recipe has picture_px={self.picture_px}, need 32..{PATCH_PX}")
-        if self.learning_rate <= 0 or min(self.weight_decay, self.force_weight, self.hover_weight, self.sigma_weight) < 0:
+        weights = (self.weight_decay, self.force_weight, self.hover_weight, self.sigma_weight, self.still_weight)
+        if self.learning_rate <= 0 or min(weights) < 0:
             raise ConfigError("recipe has a learning rate that is not positive or a negative weight")
         for name in ("warmup_share", "label_smoothing", "drop_path", "dropout", "average_decay", "held_out_share"):
             if not 0.0 <= getattr(self, name) < 1.0:
                 raise ConfigError(f"recipe has {name}={getattr(self, name)}, need 0 or more and below 1")
 
     @classmethod
-    def shipped(cls) -> Recipe:
-        """The shipped model's first stage, for a GPU: larger batches, averaged over more steps."""
+    def stills(cls) -> Recipe:
+        """The shipped model's earlier stages, on patches with a GPU: larger batches, averaged over more steps."""
         return cls(epochs=34, batch=256, learning_rate=2e-3, warmup_share=0.05, average_decay=0.999, held_out_share=0.07)
+
+    @classmethod
+    def films(cls) -> Recipe:
+        """The shipped model's last stage, on films of 12 frames with a GPU."""
+        return cls(
+            epochs=16, batch=32, learning_rate=1.2e-3, warmup_share=0.04, average_decay=0.998, held_out_share=0.03, held_out_views=1
+        )
 
     @classmethod
     def paper(cls) -> Recipe:

@@ -19,19 +19,23 @@ from lightning.pytorch.callbacks import ModelCheckpoint
 from torch.utils.data import DataLoader
 
 from egotouch_sdk.errors import ConfigError, SourceError
+from egotouch_sdk.training.augment import AIR_SHARE
 from egotouch_sdk.training.calibration import Calibration, calibrate
-from egotouch_sdk.training.dataset import AIR_SHARE, PatchDataset, Sample, SeededOrder, collate, finger_weights, fixed_views
+from egotouch_sdk.training.dataset import PatchDataset, Sample, SeededOrder, collate, finger_weights, fixed_views
 from egotouch_sdk.training.export import ModelFacts, write_model
+from egotouch_sdk.training.folder import Rendered, read_folder
 from egotouch_sdk.training.model_card import MANIFEST_FILE
 from egotouch_sdk.training.module import TouchModule
-from egotouch_sdk.training.network import TouchNetwork
+from egotouch_sdk.training.network import HIDDEN, TouchNetwork
 from egotouch_sdk.training.pretrained import start_trunk
 from egotouch_sdk.training.recipe import Recipe
 from egotouch_sdk.training.report import coverage, held_out_report
-from egotouch_sdk.training.shards import RenderedPatch, held_out, read_folder
+from egotouch_sdk.training.shards import PatchLabel, held_out
 
-#: Pictures per forward pass when scoring.
-SCORING_BATCH = 128
+#: Patches or films per forward pass when scoring.
+SCORING_BATCH = 32
+#: A hover of at least this height that passes for a touch is a false touch; below it the touch is only early.
+CLEAR_HOVER_MM = 1.0
 LAST_CHECKPOINT = "last.ckpt"
 #: What manifests say of the data.
 DATA = "rendered by egotouch_sdk.synthetic; no pictures of people"
@@ -48,18 +52,18 @@ class Machine:
 
 @dataclass(frozen=True, slots=True)
 class Split:
-    """Rendered patches that train and patches of other participants that do not."""
+    """Rendered patches or films that train, and those of other participants that do not."""
 
-    train: list[RenderedPatch]
-    held_out: list[RenderedPatch]
+    train: list[Rendered]
+    held_out: list[Rendered]
 
     @classmethod
-    def of(cls, patches: list[RenderedPatch], recipe: Recipe) -> Split:
+    def of(cls, patches: list[Rendered], recipe: Recipe) -> Split:
         """Split by participant; raises `SourceError` when a side would lack touches or hovers."""
         marked = held_out([patch.label for patch in patches], recipe.held_out_share)
         split = cls([p for p, m in zip(patches, marked, strict=True) if not m], [p for p, m in zip(patches, marked, strict=True) if m])
         for name, side in (("training", split.train), ("held-out", split.held_out)):
-            if len({patch.label.touch for patch in side}) < 2:
+            if len({label.touch for patch in side for label in patch.labels}) < 2:
                 raise SourceError(f"the {name} patches lack touches or hovers", hint="Render more scenes")
         return split
 
@@ -86,7 +90,7 @@ def train(
     lightning.seed_everything(recipe.seed, verbose=False)
     patches = [patch for patch in read_folder(data) if patch.label.participant not in left_out]
     split = Split.of(patches, recipe)
-    module = TouchModule(recipe, float(np.mean([patch.label.touch for patch in split.train])))
+    module = TouchModule(recipe, float(np.mean([label.touch for patch in split.train for label in patch.labels])))
     if start_from is not None:
         load_weights(module, start_from)
     if trunk is not None:
@@ -96,7 +100,7 @@ def train(
     return export(module, split, out, earlier_stage(start_from))
 
 
-def fit(module: TouchModule, train_patches: list[RenderedPatch], validation: Sample, out: Path, machine: Machine, resume: bool) -> None:
+def fit(module: TouchModule, train_patches: list[Rendered], validation: Sample, out: Path, machine: Machine, resume: bool) -> None:
     """Run Lightning's loop; the module is trained in place."""
     out.mkdir(parents=True, exist_ok=True)
     checkpoint = out / LAST_CHECKPOINT
@@ -189,34 +193,44 @@ def export(module: TouchModule, split: Split, out: Path, earlier: dict[str, Any]
         "steps_done": module.global_step,
         "recipe": recipe.to_dict(),
         "calibration": calibration.to_dict(),
-        "threshold_from": "held-out rendered participants; 2.6 % of their hovers reach it",
+        "threshold_from": "held-out rendered participants; 2.6 % of their hovers of 1 mm and more reach it",
     }
     if module.trunk is not None:
         training["trunk"] = module.trunk
     if earlier is not None:
         training["started_from"] = earlier
-    facts = ModelFacts(f"renders-{len(split.train)}", calibration.down, calibration.up, training, {"held_out_renders": measured})
+    facts = ModelFacts(f"renders-{training['patches']}", calibration.down, calibration.up, training, {"held_out_renders": measured})
     return write_model(shipped, facts, out)
 
 
 def calibrate_and_score(
-    network: TouchNetwork, patches: Sequence[RenderedPatch], views: int, seed: int
+    network: TouchNetwork, patches: Sequence[Rendered], views: int, seed: int
 ) -> tuple[TouchNetwork, Calibration, dict[str, Any]]:
     """A calibrated copy of the network, its calibration, and its scores on the pictures that calibrated it."""
     index, pictures = fixed_views(patches, views, seed)
-    labels = [patches[i].label for i in index]
-    logit, force_n, sigma_n = predict(network, pictures)
-    calibration = calibrate(np.array([label.touch for label in labels]), logit)
+    labels = [label for i in index for label in patches[i].labels]
+    logit, force_n, sigma_n = (values.ravel() for values in predict(network, pictures))
+    calibration = calibrate(labels_touch(labels), logit, clear_hovers(labels))
     probability = 1 / (1 + np.exp(-(calibration.scale * logit.astype(np.float64) + calibration.shift)))
     measured = held_out_report(labels, probability, force_n, calibration.down)
     measured["force_within_one_sigma"] = coverage(labels, force_n, sigma_n)
     return calibrated(network, calibration), calibration, measured
 
 
-def census(patches: Sequence[RenderedPatch]) -> dict[str, int]:
-    """How many patches, participants and scenes there are."""
+def labels_touch(labels: Sequence[PatchLabel]) -> npt.NDArray[np.bool_]:
+    """Which frames (N,) touch."""
+    return np.array([label.touch for label in labels])
+
+
+def clear_hovers(labels: Sequence[PatchLabel]) -> npt.NDArray[np.bool_]:
+    """Which frames (N,) hover so high that a touch told there is a false one, not an early one."""
+    return np.array([not label.touch and label.hover_mm >= CLEAR_HOVER_MM for label in labels])
+
+
+def census(patches: Sequence[Rendered]) -> dict[str, int]:
+    """How many patches (frames of films count each), participants and scenes there are."""
     participants, scenes = {patch.label.participant for patch in patches}, {patch.label.scene for patch in patches}
-    return {"patches": len(patches), "participants": len(participants), "scenes": len(scenes)}
+    return {"patches": sum(len(patch.labels) for patch in patches), "participants": len(participants), "scenes": len(scenes)}
 
 
 def calibrated(network: TouchNetwork, calibration: Calibration) -> TouchNetwork:
@@ -229,13 +243,14 @@ def calibrated(network: TouchNetwork, calibration: Calibration) -> TouchNetwork:
 
 
 def predict(network: TouchNetwork, views: Sample) -> tuple[npt.NDArray[np.float32], npt.NDArray[np.float32], npt.NDArray[np.float32]]:
-    """Touch logits (N,), forces (N,) and their standard errors (N,) in newtons of a batch of any size."""
+    """Touch logits, forces and their standard errors in newtons, (N, T) each, of a batch of any size, films as films."""
     network.eval()
+    parts = []
     with torch.no_grad():
-        parts = [
-            network(views.patch[start : start + SCORING_BATCH], views.polar[start : start + SCORING_BATCH])
-            for start in range(0, len(views.patch), SCORING_BATCH)
-        ]
+        for start in range(0, len(views.patch), SCORING_BATCH):
+            patch, polar = (part[start : start + SCORING_BATCH] for part in (views.patch, views.polar))
+            hidden = network.embed(patch.flatten(0, 1), polar.flatten(0, 1)).reshape(*patch.shape[:2], HIDDEN)
+            parts.append(network.decide(network.film(hidden)))
     logit, force_n, sigma_n = (torch.cat(column).numpy() for column in zip(*parts, strict=True))
     return logit, force_n, sigma_n
 

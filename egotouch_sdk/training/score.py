@@ -1,4 +1,4 @@
-"""Scores of an exported model on rendered patches that it never saw."""
+"""Scores of an exported model on rendered patches or films that it never saw."""
 
 from __future__ import annotations
 
@@ -9,23 +9,27 @@ from typing import Any
 import numpy as np
 
 from egotouch_sdk.inference import create_session
-from egotouch_sdk.touch.manifest import OUTPUTS, TouchManifest
+from egotouch_sdk.touch.manifest import MEMORY, NEXT_MEMORY, OUTPUTS, TouchManifest
 from egotouch_sdk.training.dataset import fixed_views
+from egotouch_sdk.training.folder import Rendered
+from egotouch_sdk.training.network import MEMORY_SIZE
 from egotouch_sdk.training.report import held_out_report
-from egotouch_sdk.training.shards import RenderedPatch
 
 _BATCH = 128
 
 
-def score_model(model: Path, patches: Sequence[RenderedPatch], views: int, seed: int, threads: int = 1) -> dict[str, Any]:
-    """The report of `held_out_report` at the model's own threshold, from `views` fixed camera pictures of each patch."""
-    index, sample = fixed_views(patches, views, seed)
+def score_model(model: Path, rendered: Sequence[Rendered], views: int, seed: int, threads: int = 1) -> dict[str, Any]:
+    """The report of `held_out_report` at the model's own threshold, from `views` fixed cameras for each patch or film."""
+    index, sample = fixed_views(rendered, views, seed)
     session = create_session(model, threads)
     images, polar = sample.patch.numpy(), sample.polar.numpy()
-    parts = [
-        session.run(list(OUTPUTS), {"patch": images[start : start + _BATCH], "polar": polar[start : start + _BATCH]})
-        for start in range(0, len(images), _BATCH)
-    ]
-    logit, force_n = (np.concatenate(column).astype(np.float64) for column in zip(*parts, strict=True))
+    logit, force_n = np.empty((2, *images.shape[:2]))
+    for start in range(0, len(images), _BATCH):
+        part = np.s_[start : start + _BATCH]
+        memory = np.zeros((len(images[part]), MEMORY_SIZE), np.float32)
+        for frame in range(images.shape[1]):
+            inputs = {"patch": images[part, frame], "polar": polar[part, frame], MEMORY: memory}
+            logit[part, frame], force_n[part, frame], memory = session.run([*OUTPUTS, NEXT_MEMORY], inputs)
     threshold = TouchManifest.read(model.with_suffix(".json")).down_probability
-    return held_out_report([patches[i].label for i in index], 1 / (1 + np.exp(-logit)), force_n, threshold)
+    labels = [label for i in index for label in rendered[i].labels]
+    return held_out_report(labels, 1 / (1 + np.exp(-logit.ravel())), force_n.ravel(), threshold)

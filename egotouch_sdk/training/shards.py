@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -69,6 +68,11 @@ class RenderedPatch:
     layers: LightLayers
     label: PatchLabel
 
+    @property
+    def labels(self) -> tuple[PatchLabel, ...]:
+        """Of its frames: one."""
+        return (self.label,)
+
 
 def read_shard(path: Path) -> list[RenderedPatch]:
     """All patches of one `.npz` shard; raises `SourceError` when it is not a readable shard."""
@@ -85,15 +89,6 @@ def read_shard(path: Path) -> list[RenderedPatch]:
         for i, meta in enumerate(metas)
         if np.isfinite(light[i]).all()
     ]
-
-
-def read_folder(folder: Path) -> list[RenderedPatch]:
-    """All patches of all shards in a folder, in name order; raises `SourceError` when there are none."""
-    with ThreadPoolExecutor() as readers:
-        patches = [patch for shard in readers.map(read_shard, sorted(folder.glob("*.npz"))) for patch in shard]
-    if not patches:
-        raise SourceError(f"no rendered patches in {folder}", hint="Render some first: egotouch synth patches --help")
-    return patches
 
 
 def held_out(labels: Sequence[PatchLabel], share: float) -> npt.NDArray[np.bool_]:
