@@ -15,7 +15,7 @@ import numpy.typing as npt
 
 from egotouch_sdk.errors import FrameError
 from egotouch_sdk.observation import PATCH_PX
-from egotouch_sdk.synthetic.camera_settings import CameraSettings, draw_settings
+from egotouch_sdk.synthetic.camera_settings import CameraSettings
 from egotouch_sdk.synthetic.srgb import srgb_to_linear
 
 FloatImage = npt.NDArray[np.float32]
@@ -51,11 +51,6 @@ class LightLayers:
             raise FrameError(f"light, albedo, segment and depth have shapes {shapes}; need squares of {PATCH_PX} px or more")
         if self.albedo.dtype != np.uint8 or self.segment.dtype != np.uint8:
             raise FrameError(f"albedo is {self.albedo.dtype} and segment {self.segment.dtype}, need uint8")
-
-
-def photograph_randomly(layers: LightLayers, rng: np.random.Generator) -> npt.NDArray[np.uint8]:
-    """A patch, uint8 (100, 100, 3) RGB, through one random camera; the same generator state gives the same patch."""
-    return photograph(layers, draw_settings(rng), rng)
 
 
 def photograph(layers: LightLayers, settings: CameraSettings, rng: np.random.Generator) -> npt.NDArray[np.uint8]:

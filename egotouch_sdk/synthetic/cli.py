@@ -182,26 +182,32 @@ def _wanted(args: argparse.Namespace, finger: str, place: str) -> bool:
 
 
 def _shard_patches(args: argparse.Namespace) -> tuple[Any, Any]:
-    """Patches (N, 100, 100, 3) through a random training camera each, and their labels (N,)."""
+    """Patches (N, 100, 100, 3) of shards, or every third frame of films, as training sees them, and their labels (N,)."""
     import numpy as np
 
-    from egotouch_sdk.synthetic.camera import photograph_randomly
+    from egotouch_sdk.synthetic.film_shards import PATTERN
+    from egotouch_sdk.training.augment import view
+    from egotouch_sdk.training.films import read_films, view_film
     from egotouch_sdk.training.shards import read_shard
 
-    files = sorted(args.renders.glob("shard-*.npz"))
+    files = [*args.renders.glob("shard-*.npz"), *args.renders.glob(PATTERN)]
     if not files:
         raise SourceError(f"no shards and no study in {args.renders}", hint="Render some first: egotouch synth patches --out FOLDER")
     rng = np.random.default_rng(args.seed)
     patches: list[Any] = []
     touch: list[bool] = []
-    for file in rng.permutation(np.array(files)):
-        for one in read_shard(file):
-            if len(touch) < args.count and _wanted(args, one.label.finger, one.label.place):
-                patches.append(photograph_randomly(one.layers, rng))
-                touch.append(one.label.touch)
+    for file in rng.permutation(np.array(sorted(files))):
+        if file.match(PATTERN):
+            shown = [(view_film(film, rng)[0][::3], film.labels[::3]) for film in read_films(file)]
+        else:
+            shown = [(view(one, rng)[0][None], one.labels) for one in read_shard(file)]
+        for images, labels in shown:
+            if _wanted(args, labels[0].finger, labels[0].place):
+                patches += list(images)
+                touch += [label.touch for label in labels]
         if len(touch) >= args.count:
             break
-    return np.array(patches), np.array(touch, bool)
+    return np.array(patches[: args.count]), np.array(touch[: args.count], bool)
 
 
 def _study_patches(args: argparse.Namespace) -> tuple[Any, Any]:

@@ -71,7 +71,7 @@ def mitsuba(threads: int = 1) -> Any:
     if chosen == "scalar" and not wanted:
         warnings.warn(f"Rendering takes about 5 times longer than it could. {_NEEDS['llvm']}", stacklevel=2)
     mi.set_variant(VARIANTS[chosen])
-    if chosen == "llvm":
+    if chosen != "scalar":
         drjit.set_thread_count(threads)
     return mi
 

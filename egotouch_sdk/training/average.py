@@ -25,8 +25,9 @@ def average(checkpoints: Sequence[Path], data: Path, out: Path, seed: int) -> Pa
     Returns the model file's path. Nobody in `data` may have trained one of the runs: this is not checked, since checkpoints do not
     name people. Raises `ConfigError` for a file that is no checkpoint of this network, `SourceError` for unusable data.
     """
-    network = TouchNetwork()
-    network.load_state_dict(mean_state([averaged_state(path) for path in checkpoints]))
+    mean = mean_state([averaged_state(path) for path in checkpoints])
+    network = TouchNetwork(remembers=any(name.startswith("memory.") for name in mean))
+    network.load_state_dict(mean)
     training = {"averaged_runs": len(checkpoints), **{f"run_{i + 1}": earlier_stage(path) for i, path in enumerate(checkpoints)}}
     return export_calibrated(network.use_fast_layout(), read_folder(data), out, training, seed)
 

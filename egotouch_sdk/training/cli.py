@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 EXAMPLES = """\
   egotouch train --data data/patches --out out/touch
   egotouch train --data data/patches --out out/touch --resume      after an interruption
-  egotouch train --data data/films --out out/memory --start-from out/touch/last.ckpt     films teach it to remember
+  egotouch train --data data/films --out out/memory --start-from out/touch/last.ckpt --recipe films
   egotouch train --data data/patches --out out/paper --recipe paper
   egotouch train --data data/patches --out out/touch --trunk model.safetensors     ImageNet weights that you have fetched
   egotouch train --data data/others --out out/mean --average out/a/last.ckpt out/b/last.ckpt
@@ -42,6 +42,7 @@ def add_parser(subparsers: Subparsers) -> None:
         default="default",
         help="ours for CPUs (default), the shipped model's for a GPU (stills: patches, films: films), or the paper's",
     )
+    parser.add_argument("--remember", action="store_true", help="add a memory of each finger's earlier frames (needs films)")
     parser.add_argument("--epochs", type=positive_int, metavar="N", help="passes over the renders, each with new cameras")
     parser.add_argument(
         "--picture-px", type=positive_int, metavar="N", help="size of the pictures, smaller = faster first stage (default 100)"
@@ -83,6 +84,7 @@ def train(options: argparse.Namespace) -> int:
     recipe = {"default": Recipe, "stills": Recipe.stills, "films": Recipe.films, "paper": Recipe.paper}[options.recipe]()
     chosen = {"epochs": options.epochs, "learning_rate": options.learning_rate, "picture_px": options.picture_px, "seed": options.seed}
     recipe = replace(recipe, **{name: value for name, value in chosen.items() if value is not None})
+    recipe = replace(recipe, remembers=options.remember)
     machine = Machine(options.threads, options.workers, options.max_minutes)
     if options.folds or options.trials:
         return _train_many(options, recipe, machine)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from math import pi
 from typing import NamedTuple
 
 import cv2
@@ -14,11 +13,9 @@ import torch
 from torch import Tensor
 from torch.utils.data import Dataset, Sampler
 
-from egotouch_sdk.patches import HOST_UNKNOWN, normalise
+from egotouch_sdk.patches import normalise
 from egotouch_sdk.synthetic.air import in_the_air
-from egotouch_sdk.synthetic.camera import photograph
-from egotouch_sdk.synthetic.camera_settings import draw_settings
-from egotouch_sdk.training.augment import DRAG_MOTION, DRAG_SHARE, FLIP_SHARE, HOST_UNKNOWN_SHARE, POLAR_JITTER
+from egotouch_sdk.training.augment import view
 from egotouch_sdk.training.films import RenderedFilm, before_clutter, view_film
 from egotouch_sdk.training.folder import Rendered
 from egotouch_sdk.training.shards import HOVER_MAX_MM, PatchLabel, RenderedPatch
@@ -35,28 +32,6 @@ class Sample(NamedTuple):
     touch: Tensor
     force_n: Tensor
     hover_mm: Tensor
-
-
-def view(rendered: RenderedPatch, rng: np.random.Generator) -> tuple[npt.NDArray[np.uint8], tuple[float, float]]:
-    """One camera picture, uint8 (100, 100, 3) RGB, with its (r_palms, theta_rad)."""
-    label = rendered.label
-    settings = draw_settings(rng)
-    if label.touch:
-        settings = replace(settings, finger_motion_px=_motion_on_skin(settings.finger_motion_px, rng))
-    image = photograph(rendered.layers, settings, rng)
-    r_palms = label.r_palms * float(np.exp(rng.normal(0, POLAR_JITTER[0])))
-    theta_rad = label.theta_rad + float(rng.normal(0, POLAR_JITTER[1]))
-    if rng.random() < FLIP_SHARE:
-        image, theta_rad = np.ascontiguousarray(image[:, ::-1]), -theta_rad
-    if rng.random() < HOST_UNKNOWN_SHARE:
-        return image, HOST_UNKNOWN
-    return image, (r_palms, (theta_rad + pi) % (2 * pi) - pi)
-
-
-def _motion_on_skin(path_px: tuple[float, float], rng: np.random.Generator) -> tuple[float, float]:
-    """A pressing finger is held by the skin: it smears over it only while it drags, and less far than one that flies."""
-    share = DRAG_MOTION if rng.random() < DRAG_SHARE else 0.0
-    return path_px[0] * share, path_px[1] * share
 
 
 class PatchDataset(Dataset[Sample]):

@@ -27,9 +27,20 @@ PARITY_TOLERANCE = 1e-4
 #: Patches in the golden pair.
 GOLDEN_SIZE = 4
 ONNX_OPSET = 17
-INPUT_NAMES = ("patch", "polar", MEMORY)
-OUTPUT_NAMES = (*OUTPUTS, FORCE_SIGMA, NEXT_MEMORY)
 Floats = npt.NDArray[np.float32]
+#: What a manifest says of each input and output.
+_FIELDS: dict[str, dict[str, Any]] = {
+    name: {"dtype": "float32", "shape": ["N", *shape], "meaning": meaning}
+    for name, shape, meaning in (
+        ("patch", (3, PATCH_PX, PATCH_PX), "RGB through egotouch_sdk.patches.normalise"),
+        ("polar", (2,), "(r_palms, theta_rad); (0, 0) when the host is unknown"),
+        (MEMORY, (MEMORY_SIZE,), "next_memory of the finger's last frame, zeros at first"),
+        ("touch_logit", (), "touch probability is its logistic"),
+        ("force_n", (), "newtons, 0..3.5"),
+        (FORCE_SIGMA, (), "standard error of force_n on touches, newtons"),
+        (NEXT_MEMORY, (MEMORY_SIZE,), "what to remember of the finger"),
+    )
+}
 
 
 @dataclass(frozen=True)
@@ -58,11 +69,11 @@ def write_model(network: TouchNetwork, facts: ModelFacts, folder: Path) -> Path:
     """
     folder.mkdir(parents=True, exist_ok=True)
     path = folder / MODEL_FILE
-    inputs = golden_inputs()
+    inputs = golden_inputs(network)
     expected = run_torch(network, inputs)
     write_onnx(reparameterise(network), path)
     check_parity(path, inputs, expected)
-    golden: dict[str, Any] = {**inputs, **dict(zip(OUTPUT_NAMES, expected, strict=True))}
+    golden: dict[str, Any] = {**inputs, **expected}
     np.savez_compressed(folder / GOLDEN_FILE, **golden)
     manifest = build_manifest(network, facts, path)
     (folder / MANIFEST_FILE).write_text(json.dumps(manifest, indent=2) + "\n")
@@ -70,51 +81,61 @@ def write_model(network: TouchNetwork, facts: ModelFacts, folder: Path) -> Path:
     return path
 
 
-def golden_inputs() -> dict[str, Floats]:
+def input_names(network: TouchNetwork) -> tuple[str, ...]:
+    """Names of the model file's inputs."""
+    return ("patch", "polar") if network.memory is None else ("patch", "polar", MEMORY)
+
+
+def output_names(network: TouchNetwork) -> tuple[str, ...]:
+    """Names of the model file's outputs."""
+    return (*OUTPUTS, FORCE_SIGMA) if network.memory is None else (*OUTPUTS, FORCE_SIGMA, NEXT_MEMORY)
+
+
+def golden_inputs(network: TouchNetwork) -> dict[str, Floats]:
     """Fixed inputs for the golden pair: random patches with the mean and spread of normalised ones, four places, and four memories."""
     rng = np.random.default_rng(0)
     patch = rng.standard_normal((GOLDEN_SIZE, 3, PATCH_PX, PATCH_PX), np.float32)
     polar = np.array([[0.0, 0.0], [0.8, 0.3], [1.4, -0.6], [2.1, 2.9]], np.float32)
     memory = rng.uniform(-1, 1, (GOLDEN_SIZE, MEMORY_SIZE)).astype(np.float32) * np.array([[0.0], [0.1], [0.5], [1.0]], np.float32)
-    return dict(zip(INPUT_NAMES, (patch, polar, memory), strict=True))
+    return dict(zip(input_names(network), (patch, polar, memory), strict=False))
 
 
-def run_torch(network: TouchNetwork, inputs: dict[str, Floats]) -> tuple[Floats, ...]:
-    """The network's outputs in evaluation mode; its own mode is restored."""
+def run_torch(network: TouchNetwork, inputs: dict[str, Floats]) -> dict[str, Floats]:
+    """The network's outputs by name, in evaluation mode; its own mode is restored."""
     training = network.training
     network.eval()
     try:
         with torch.no_grad():
-            outputs = network(*(torch.from_numpy(inputs[name]) for name in INPUT_NAMES))
+            outputs = network(*(torch.from_numpy(inputs[name]) for name in input_names(network)))
     finally:
         network.train(training)
-    return tuple(output.numpy() for output in outputs)
+    return {name: output.numpy() for name, output in zip(output_names(network), outputs, strict=True)}
 
 
 def write_onnx(folded: TouchNetwork, path: Path) -> None:
     """Write a folded network as ONNX with a free batch size."""
-    example = (torch.zeros(2, 3, PATCH_PX, PATCH_PX), torch.zeros(2, 2), torch.zeros(2, MEMORY_SIZE))
-    batch = {0: "batch"}
+    example = {"patch": torch.zeros(2, 3, PATCH_PX, PATCH_PX), "polar": torch.zeros(2, 2), MEMORY: torch.zeros(2, MEMORY_SIZE)}
+    inputs, outputs = input_names(folded), output_names(folded)
     torch.onnx.export(
         folded.eval(),
-        example,
+        tuple(example[name] for name in inputs),
         str(path),
-        input_names=list(INPUT_NAMES),
-        output_names=list(OUTPUT_NAMES),
-        dynamic_axes=dict.fromkeys((*INPUT_NAMES, *OUTPUT_NAMES), batch),
+        input_names=list(inputs),
+        output_names=list(outputs),
+        dynamic_axes={name: {0: "batch"} for name in (*inputs, *outputs)},
         opset_version=ONNX_OPSET,
         dynamo=False,
     )
 
 
-def check_parity(path: Path, inputs: dict[str, Floats], expected: tuple[Floats, ...]) -> None:
+def check_parity(path: Path, inputs: dict[str, Floats], expected: dict[str, Floats]) -> None:
     """Raise `ModelError` unless the model file gives the expected outputs for the whole batch and for one patch alone."""
     from egotouch_sdk.inference import create_session
 
     session = create_session(path)
     for count in (GOLDEN_SIZE, 1):
-        got = session.run(list(OUTPUT_NAMES), {name: values[:count] for name, values in inputs.items()})
-        worst = max(float(np.abs(g - e[:count]).max()) for g, e in zip(got, expected, strict=True))
+        got = session.run(list(expected), {name: values[:count] for name, values in inputs.items()})
+        worst = max(float(np.abs(g - e[:count]).max()) for g, e in zip(got, expected.values(), strict=True))
         if worst > PARITY_TOLERANCE:
             raise ModelError(f"{path.name} differs from the trained network by {worst:.2g}", hint="Report your torch and onnx versions")
 
@@ -126,17 +147,8 @@ def build_manifest(network: TouchNetwork, facts: ModelFacts, path: Path) -> dict
         "version": facts.version,
         "file": path.name,
         "sha256": hashlib.sha256(path.read_bytes()).hexdigest(),
-        "inputs": {
-            "patch": {"dtype": "float32", "shape": ["N", 3, PATCH_PX, PATCH_PX], "meaning": "RGB through egotouch_sdk.patches.normalise"},
-            "polar": {"dtype": "float32", "shape": ["N", 2], "meaning": "(r_palms, theta_rad); (0, 0) when the host is unknown"},
-            MEMORY: {"dtype": "float32", "shape": ["N", MEMORY_SIZE], "meaning": "next_memory of the finger's last frame, zeros at first"},
-        },
-        "outputs": {
-            "touch_logit": {"dtype": "float32", "shape": ["N"], "meaning": "touch probability is its logistic"},
-            "force_n": {"dtype": "float32", "shape": ["N"], "meaning": "newtons, 0..3.5"},
-            "force_sigma_n": {"dtype": "float32", "shape": ["N"], "meaning": "standard error of force_n on touches, newtons"},
-            NEXT_MEMORY: {"dtype": "float32", "shape": ["N", MEMORY_SIZE], "meaning": "what to remember of the finger"},
-        },
+        "inputs": {name: _FIELDS[name] for name in input_names(network)},
+        "outputs": {name: _FIELDS[name] for name in output_names(network)},
         "threshold": {"down": facts.threshold_down, "up": facts.threshold_up},
         "parameters": {
             "trained": count_parameters(network),

@@ -15,8 +15,8 @@ CARD_FILE = "MODEL_CARD.md"
 _INTRO = """# Touch model
 
 FastViT-T8 trunk, 126 features with (R, theta), 128 hidden units; one patch gives a touch logit and a force in newtons
-(EgoTouch, UIST 2024, section 4), and the standard error of that force. A gated recurrent cell over the hidden units remembers
-each finger's earlier frames. Folded to plain convolutions for shipping. Version: **{version}**. Licence: {licence}.
+(EgoTouch, UIST 2024, section 4), and the standard error of that force. {memory}Folded to plain convolutions
+for shipping. Version: **{version}**. Licence: {licence}.
 
 | form | parameters | the paper's |
 | --- | --- | --- |
@@ -25,6 +25,8 @@ each finger's earlier frames. Folded to plain convolutions for shipping. Version
 
 A touch begins at probability {threshold[down]:.3f} and ends below {threshold[up]:.3f}.
 """
+
+_MEMORY = "A gated recurrent cell over the hidden units remembers each\nfinger's earlier frames. "
 
 _LIMITS = """
 ## Limits
@@ -48,6 +50,7 @@ def model_card(manifest: dict[str, Any]) -> str:
         shipped=parameters["shipped"],
         paper=parameters["paper_millions"],
         threshold=manifest["threshold"],
+        memory=_MEMORY if "memory" in manifest["inputs"] else "",
     )
     if not manifest["training"]:
         return text + "\nRandom weights: this file only lets the pipeline run. Its answers mean nothing.\n"

@@ -16,7 +16,7 @@ from torch.optim.swa_utils import AveragedModel, get_ema_multi_avg_fn
 from egotouch_sdk.evaluation.metrics import force_scores, touch_scores
 from egotouch_sdk.observation import FORCE_MAX_N
 from egotouch_sdk.training.dataset import Sample
-from egotouch_sdk.training.network import HIDDEN, MEMORY_SIZE, TouchNetwork
+from egotouch_sdk.training.network import HIDDEN, TouchNetwork
 from egotouch_sdk.training.recipe import Recipe
 from egotouch_sdk.training.shards import HOVER_MAX_MM
 
@@ -34,8 +34,8 @@ class TouchModule(lightning.LightningModule):
         super().__init__()
         self.recipe = recipe
         self.touch_weight = (1 - touch_share) / touch_share
-        self.network = TouchNetwork(recipe.drop_path, recipe.dropout).use_fast_layout()
-        self.hover_head = nn.Linear(HIDDEN + MEMORY_SIZE, 1)
+        self.network = TouchNetwork(recipe.drop_path, recipe.dropout, recipe.remembers).use_fast_layout()
+        self.hover_head = nn.Linear(self.network.state_size, 1)
         self.average = AveragedModel(self.network, multi_avg_fn=get_ema_multi_avg_fn(recipe.average_decay), use_buffers=True)
         self.held_out: list[tuple[Tensor, ...]] = []
         self.trunk: dict[str, Any] | None = None
@@ -64,13 +64,12 @@ class TouchModule(lightning.LightningModule):
     def training_step(self, batch: Sample, _: int) -> Tensor:
         hidden = self.embed(self.network, batch)
         loss = self.loss(self.network.film(hidden), batch, log=True)
-        if self.recipe.still_weight and batch.touch.shape[1] > 1:
-            alone = self.network.still(hidden.flatten(0, 1)).reshape(*batch.touch.shape, -1)
-            loss = loss + self.recipe.still_weight * self.loss(alone, batch, log=False)
+        if self.recipe.remembers:
+            loss = loss + self.recipe.still_weight * self.loss(self.network.stills(hidden), batch, log=False)
         return loss
 
     def loss(self, state: Tensor, batch: Sample, log: bool) -> Tensor:
-        """The loss of states (N, T, 256)."""
+        """The loss of states (N, T, S)."""
         recipe = self.recipe
         logit, force_n, sigma_n = self.network.decide(state)
         target = batch.touch * (1 - recipe.label_smoothing) + recipe.label_smoothing / 2

@@ -1,7 +1,7 @@
-"""The touch network: FastViT-T8 trunk, the EgoTouch head with (R, theta), and a memory of the finger's earlier frames.
+"""The touch network: FastViT-T8 trunk, then the EgoTouch head with (R, theta); on demand with a memory of a finger's earlier frames.
 
 Head: EgoTouch, UIST 2024, section 4: trunk -> 126 features, (R, theta) appended -> 128 -> ReLU -> touch logit and force. The paper judges
-every frame alone; here a gated recurrent cell (Cho et al. 2014) over the 128 values remembers, and both feed the outputs.
+every frame alone. The memory is a gated recurrent cell (Cho et al. 2014) over the 128 values; then both feed the outputs.
 """
 
 from __future__ import annotations
@@ -41,16 +41,17 @@ class Memory(nn.Module):
 
 
 class TouchNetwork(nn.Module):
-    """Patches, (R, theta) and what is remembered of their fingers in; touch logit, force and what to remember out.
+    """Patches and (R, theta) in, touch logit and force out; a network that `remembers` also takes and gives a memory.
 
     `patch` (N, 3, 100, 100) float32, normalised by `egotouch_sdk.patches.normalise`; `polar` (N, 2) = (r_palms, theta_rad); `memory`
     (N, 128), zeros for a finger's first frame.
     Returns `touch_logit` (N,), `force_n` (N,) in newtons, unbounded while training, clamped to 0..3.5 in evaluation mode,
-    `force_sigma_n` (N,), the standard error of that force on touches (it is read off the state and never shapes it), and the next memory.
+    `force_sigma_n` (N,), the standard error of that force on touches (it is read off the state and never shapes it), and, where it
+    remembers, the next memory.
     `drop_path` is the largest share of skipped residuals, `dropout` the share of dropped features, both in training only.
     """
 
-    def __init__(self, drop_path: float = 0.0, dropout: float = 0.0) -> None:
+    def __init__(self, drop_path: float = 0.0, dropout: float = 0.0, remembers: bool = False) -> None:
         super().__init__()
         rates = iter(torch.linspace(0, drop_path, sum(STAGE_DEPTHS)).tolist())
         layers: list[nn.Module] = [stem()]
@@ -65,9 +66,14 @@ class TouchNetwork(nn.Module):
         self.features = nn.Linear(EXPANSION_RATIO * last, FEATURES)
         self.dropout = nn.Dropout(dropout)
         self.hidden = nn.Linear(FEATURES + 2, HIDDEN)
-        self.memory = Memory()
-        self.outputs = nn.Linear(HIDDEN + MEMORY_SIZE, 2)
-        self.spread = nn.Linear(HIDDEN + MEMORY_SIZE, 1)
+        self.memory = Memory() if remembers else None
+        self.outputs = nn.Linear(self.state_size, 2)
+        self.spread = nn.Linear(self.state_size, 1)
+
+    @property
+    def state_size(self) -> int:
+        """Number of values that all outputs are read from: the hidden ones, and the memory where there is one."""
+        return HIDDEN if self.memory is None else HIDDEN + MEMORY_SIZE
 
     def embed(self, patch: Tensor, polar: Tensor) -> Tensor:
         """The 128 hidden values (N, 128) of each frame alone."""
@@ -76,12 +82,18 @@ class TouchNetwork(nn.Module):
         joined = torch.cat([self.dropout(self.features(pooled)), place], 1)
         return torch.relu(self.hidden(joined))
 
-    def still(self, hidden: Tensor) -> Tensor:
-        """The state (N, 256) that all outputs are read from, of frames that are a finger's first: hidden values and new memory."""
-        return torch.cat([hidden, self.memory(hidden, hidden.new_zeros(len(hidden), MEMORY_SIZE))], 1)
+    def stills(self, hidden: Tensor) -> Tensor:
+        """States (N, T, S) of frames that are each judged alone, from their hidden values (N, T, 128)."""
+        if self.memory is None:
+            return hidden
+        first = hidden.flatten(0, 1)
+        memory = self.memory(first, first.new_zeros(len(first), MEMORY_SIZE))
+        return torch.cat([hidden, memory.reshape(*hidden.shape[:2], MEMORY_SIZE)], 2)
 
     def film(self, hidden: Tensor) -> Tensor:
-        """The states (N, T, 256) of films of T frames, from their hidden values (N, T, 128)."""
+        """States (N, T, S) of films of T frames, from their hidden values (N, T, 128); without a memory those of stills."""
+        if self.memory is None:
+            return hidden
         memory, states = hidden.new_zeros(len(hidden), MEMORY_SIZE), []
         for frame in hidden.unbind(1):
             memory = self.memory(frame, memory)
@@ -89,14 +101,16 @@ class TouchNetwork(nn.Module):
         return torch.stack(states, 1)
 
     def decide(self, state: Tensor) -> tuple[Tensor, Tensor, Tensor]:
-        """Touch logit, force and its standard error in newtons of states (..., 256), each (...)."""
+        """Touch logit, force and its standard error in newtons of states (..., S), each (...)."""
         logit, force = self.outputs(state).unbind(-1)
         force_n = force * FORCE_MAX_N
         sigma_n = self.spread(state.detach())[..., 0].clamp(*LOG_SIGMA_RANGE).exp() * FORCE_MAX_N
         return logit, force_n if self.training else force_n.clamp(0.0, FORCE_MAX_N), sigma_n
 
-    def forward(self, patch: Tensor, polar: Tensor, memory: Tensor) -> tuple[Tensor, Tensor, Tensor, Tensor]:
+    def forward(self, patch: Tensor, polar: Tensor, memory: Tensor | None = None) -> tuple[Tensor, ...]:
         hidden = self.embed(patch, polar)
+        if self.memory is None or memory is None:
+            return self.decide(self.stills(hidden[:, None])[:, 0])
         following = self.memory(hidden, memory)
         return *self.decide(torch.cat([hidden, following], 1)), following
 

@@ -20,7 +20,8 @@ class Recipe:
     `picture_px` below 100 shrinks the pictures: 64 is 2.4 times faster and good for a first stage to start the real run from.
     `label_smoothing` moves targets towards one half. `hover_weight` weighs an auxiliary hover-height output, dropped on export,
     `sigma_weight` the standard error of the force, which learns from the network's errors and does not move them.
-    `still_weight` weighs the loss of each frame of a film judged alone, as a finger's first frame is.
+    `remembers` adds a memory of a finger's earlier frames, trained on films; `still_weight` then weighs the loss of each frame judged
+    alone, as a finger's first frame is.
     `held_out_share` of the patches, whole participants, choose the threshold and never train.
     """
 
@@ -37,6 +38,7 @@ class Recipe:
     drop_path: float = 0.05
     dropout: float = 0.1
     average_decay: float = 0.995
+    remembers: bool = False
     still_weight: float = 0.5
     held_out_share: float = 0.12
     held_out_views: int = 2

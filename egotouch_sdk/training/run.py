@@ -89,6 +89,8 @@ def train(
     torch.set_num_threads(machine.threads)
     lightning.seed_everything(recipe.seed, verbose=False)
     patches = [patch for patch in read_folder(data) if patch.label.participant not in left_out]
+    if recipe.remembers and max(len(patch.labels) for patch in patches) == 1:
+        raise ConfigError(f"{data} holds single patches, which give nothing to remember", hint="Render films: egotouch synth films --help")
     split = Split.of(patches, recipe)
     module = TouchModule(recipe, float(np.mean([label.touch for patch in split.train for label in patch.labels])))
     if start_from is not None:

@@ -22,14 +22,16 @@ def score_model(model: Path, rendered: Sequence[Rendered], views: int, seed: int
     """The report of `held_out_report` at the model's own threshold, from `views` fixed cameras for each patch or film."""
     index, sample = fixed_views(rendered, views, seed)
     session = create_session(model, threads)
+    remembers = MEMORY in {node.name for node in session.get_inputs()}
     images, polar = sample.patch.numpy(), sample.polar.numpy()
     logit, force_n = np.empty((2, *images.shape[:2]))
     for start in range(0, len(images), _BATCH):
         part = np.s_[start : start + _BATCH]
-        memory = np.zeros((len(images[part]), MEMORY_SIZE), np.float32)
+        memory = {MEMORY: np.zeros((len(images[part]), MEMORY_SIZE), np.float32)} if remembers else {}
         for frame in range(images.shape[1]):
-            inputs = {"patch": images[part, frame], "polar": polar[part, frame], MEMORY: memory}
-            logit[part, frame], force_n[part, frame], memory = session.run([*OUTPUTS, NEXT_MEMORY], inputs)
+            inputs = {"patch": images[part, frame], "polar": polar[part, frame], **memory}
+            logit[part, frame], force_n[part, frame], *following = session.run([*OUTPUTS, *([NEXT_MEMORY] if remembers else [])], inputs)
+            memory = dict(zip(memory, following, strict=True))
     threshold = TouchManifest.read(model.with_suffix(".json")).down_probability
     labels = [label for i in index for label in rendered[i].labels]
     return held_out_report(labels, 1 / (1 + np.exp(-logit.ravel())), force_n.ravel(), threshold)

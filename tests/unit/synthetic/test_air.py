@@ -1,7 +1,8 @@
 import numpy as np
 
 from egotouch_sdk.synthetic.air import clutter, in_the_air
-from egotouch_sdk.synthetic.camera import LightLayers, photograph_randomly
+from egotouch_sdk.synthetic.camera import LightLayers, photograph
+from egotouch_sdk.synthetic.camera_settings import draw_settings
 
 
 def test_the_hand_stays_and_the_host_is_gone() -> None:
@@ -17,7 +18,7 @@ def test_the_hand_stays_and_the_host_is_gone() -> None:
     assert set(np.unique(after.segment)) == {0, 2}
     assert (after.depth_mm[~hand] > 100).all() and (after.depth_mm[hand] == 0).all()
     assert (after.albedo[~hand] != before.albedo[~hand]).mean() > 0.9
-    assert photograph_randomly(after, rng).shape == (100, 100, 3)
+    assert photograph(after, draw_settings(rng), rng).shape == (100, 100, 3)
 
 
 def test_clutter_varies_with_its_seed() -> None:

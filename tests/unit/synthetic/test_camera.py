@@ -5,10 +5,15 @@ import numpy as np
 import pytest
 
 from egotouch_sdk.errors import FrameError
-from egotouch_sdk.synthetic.camera import LightLayers, photograph, photograph_randomly
+from egotouch_sdk.synthetic.camera import LightLayers, photograph
 from egotouch_sdk.synthetic.camera_settings import CameraSettings, draw_settings
 
 SIDE = 144
+
+
+def seen_by_chance(seed: int) -> np.ndarray:
+    rng = np.random.default_rng(seed)
+    return photograph(layers(), draw_settings(rng), rng)
 
 
 def layers(side: int = SIDE, step_mm: float = 10.0) -> LightLayers:
@@ -40,13 +45,13 @@ def shoot(settings: CameraSettings) -> np.ndarray:
 
 
 def test_one_seed_gives_one_picture_and_two_seeds_two() -> None:
-    first, again, other = (photograph_randomly(layers(), np.random.default_rng(seed)) for seed in (4, 4, 5))
+    first, again, other = (seen_by_chance(seed) for seed in (4, 4, 5))
     assert first.shape == (100, 100, 3) and first.dtype == np.uint8
     assert np.array_equal(first, again) and not np.array_equal(first, other)
 
 
 def test_pictures_vary_like_cameras_do_and_stay_usable() -> None:
-    pictures = [photograph_randomly(layers(), np.random.default_rng(seed)) for seed in range(150)]
+    pictures = [seen_by_chance(seed) for seed in range(150)]
     luma = np.array([cv2.cvtColor(p, cv2.COLOR_RGB2GRAY).astype(float) for p in pictures])
     means, sharpness = luma.mean((1, 2)), [cv2.Laplacian(image, cv2.CV_64F).var() for image in luma]
     assert 80 < means.mean() < 180 and means.std() > 15

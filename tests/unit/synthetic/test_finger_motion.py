@@ -9,24 +9,24 @@ pytest.importorskip("scipy", reason="needs the extra [synthetic]")
 
 from egotouch_sdk.study_data import TouchType
 from egotouch_sdk.synthetic.finger_motion import (
-    HOVER_MM,
     LEAST_FORCE_N,
-    PEAK_N,
-    START_MM,
+    STUDY_PACE,
+    TRAINING_PACE,
     FingerMotion,
     FingerPath,
+    Pace,
     contact_spans,
     minimum_jerk,
 )
 from egotouch_sdk.synthetic.head_motion import HeadMotion
 
-SECONDS = 1.2
+SECONDS = 3.0
 FINE_S = np.arange(0.0, SECONDS, 0.001)
 TOUCHING = [kind for kind in TouchType if kind is not TouchType.HOVER]
 
 
-def moves(kind: TouchType, seeds: int = 25, seconds: float = SECONDS) -> list[tuple[FingerMotion, FingerPath]]:
-    motions = [FingerMotion(np.random.default_rng([7, seed]), kind, seconds) for seed in range(seeds)]
+def moves(kind: TouchType, seeds: int = 25, seconds: float = SECONDS, pace: Pace = STUDY_PACE) -> list[tuple[FingerMotion, FingerPath]]:
+    motions = [FingerMotion(np.random.default_rng([7, seed]), kind, seconds, pace) for seed in range(seeds)]
     return [(motion, motion.at(np.arange(0.0, seconds, 0.001))) for motion in motions]
 
 
@@ -48,7 +48,8 @@ def test_every_act_is_one_touch_with_its_peak_and_nothing_else_touches(kind: Tou
             if last < len(FINE_S):
                 assert path.force_n[first:last].max() == pytest.approx(act.peak, rel=0.1)
                 assert FINE_S[first] <= act.start_s <= act.end_s <= FINE_S[last]
-            assert PEAK_N[kind][0] <= act.peak <= PEAK_N[kind][1]
+            low_n, high_n = STUDY_PACE.peak_n(kind)
+            assert low_n <= act.peak <= high_n
 
 
 def test_a_hover_comes_down_to_its_height_and_never_touches() -> None:
@@ -57,14 +58,15 @@ def test_a_hover_comes_down_to_its_height_and_never_touches() -> None:
         assert not path.touch.any()
         assert path.hover_mm.min() == pytest.approx(min(act.peak for act in motion.acts if act.start_s < SECONDS), rel=0.25, abs=0.6)
         lowest.append(float(path.hover_mm.min()))
-    assert HOVER_MM[0] <= min(lowest) < 1.6
+    assert STUDY_PACE.hover_mm[0] <= min(lowest) < 1.6
     assert max(lowest) > 6
 
 
 @pytest.mark.parametrize("kind", list(TouchType))
 def test_a_round_starts_high_and_moves_without_jumps(kind: TouchType) -> None:
     for _, path in moves(kind):
-        assert START_MM[0] - 2 < path.hover_mm[0] < START_MM[1] + 2
+        low_mm, high_mm = STUDY_PACE.start_mm
+        assert low_mm - 2 < path.hover_mm[0] < high_mm + 2
         step_mm = np.hypot(*np.diff(path.at_mm, axis=0).T)
         assert step_mm.max() < 0.2
         assert np.abs(np.diff(path.hover_mm)).max() < 0.6
@@ -77,6 +79,18 @@ def test_only_a_drag_slides_over_the_skin() -> None:
         for kind in (TouchType.DRAG, TouchType.TAP)
     }
     assert slid[TouchType.DRAG] > 8 > 4 > slid[TouchType.TAP]
+
+
+def test_in_training_some_hovers_slide_like_a_drag_and_touches_vary_more() -> None:
+    hovers = [path for _, path in moves(TouchType.HOVER, 40, pace=TRAINING_PACE)]
+    slid = [float(np.ptp(path.at_mm[path.hover_mm < 1.2 * path.hover_mm.min()], axis=0).max()) for path in hovers]
+    assert 0.15 < np.mean(np.array(slid) > 6) < 0.6
+    lengths = {
+        pace: [end - start for _, path in moves(TouchType.TAP, 40, pace=pace) for start, end in contact_spans(path.touch)]
+        for pace in (STUDY_PACE, TRAINING_PACE)
+    }
+    assert np.std(lengths[TRAINING_PACE]) > 1.1 * np.std(lengths[STUDY_PACE])
+    assert not any(path.touch.any() for path in hovers)
 
 
 def test_force_rises_within_a_tenth_of_a_second() -> None:

@@ -35,6 +35,31 @@ def draw_shard(path: Path, participant: int, count: int = 12) -> None:
     )  # fmt: skip
 
 
+def draw_films(path: Path, participant: int) -> None:
+    """Two films of four frames, three pictures each, made of a shard's pictures; the finger comes down in the third frame."""
+    draw_shard(path, participant, count=6)
+    with np.load(path) as drawn:
+        arrays = {name: drawn[name][:, 6:138, 6:138] for name in ("light", "albedo", "segment", "depth_mm")}
+    who = {"finger": "index", "place": "palm", "participant": participant, "fitzpatrick": 3}
+    metas = [
+        {
+            **who, "scene": f"{participant}-{k}", "fps": 30.0, "first": 3 * k, "pictures": 3, "shown": [1, 1, 0, 2],
+            "touch": [False, False, True, True], "force_n": [0.0, 0.0, 0.6, 1.4], "hover_mm": [8.0, 3.0, 0.0, 0.0],
+            "velocity_px": [[4.0, -300.0], [2.0, -200.0], [0.0, 0.0], [0.0, 0.0]], "polar": [[0.9, 0.3]] * 4,
+        }
+        for k in range(2)
+    ]  # fmt: skip
+    np.savez(path, **arrays, meta=np.array(json.dumps(metas)))
+
+
+@pytest.fixture(scope="session")
+def film_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("films")
+    for participant in range(4):
+        draw_films(folder / f"films-{participant}.npz", participant)
+    return folder
+
+
 @pytest.fixture(scope="session")
 def shard_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("shards")

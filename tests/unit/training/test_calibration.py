@@ -11,7 +11,7 @@ def test_an_overconfident_shifted_network_becomes_honest() -> None:
     rng = np.random.default_rng(0)
     true_logit = rng.normal(0, 2, 20000)
     touch = rng.random(20000) < 1 / (1 + np.exp(-true_logit))
-    result = calibrate(touch, 4 * true_logit + 3)
+    result = calibrate(touch, 4 * true_logit + 3, ~touch)
     probability = 1 / (1 + np.exp(-(result.scale * (4 * true_logit + 3) + result.shift)))
     assert calibration_error(touch, probability) < 0.02
     assert (probability[~touch] >= result.down).mean() == pytest.approx(FALSE_TOUCH_SHARE, abs=0.002)
@@ -21,13 +21,13 @@ def test_an_overconfident_shifted_network_becomes_honest() -> None:
 def test_both_classes_weigh_the_same() -> None:
     rng = np.random.default_rng(0)
     touch = rng.random(20000) < 0.1
-    result = calibrate(touch, np.where(touch, 1.0, -1.0) + rng.normal(0, 1, 20000))
+    result = calibrate(touch, np.where(touch, 1.0, -1.0) + rng.normal(0, 1, 20000), ~touch)
     assert result.shift == pytest.approx(0.0, abs=0.1)
 
 
 def test_perfect_separation_stays_finite() -> None:
     touch = np.arange(100) % 2 == 0
-    result = calibrate(touch, np.where(touch, 5.0, -5.0))
+    result = calibrate(touch, np.where(touch, 5.0, -5.0), ~touch)
     assert np.isfinite([result.scale, result.shift]).all() and result.down == 0.5
 
 

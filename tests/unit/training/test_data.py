@@ -8,8 +8,11 @@ import pytest
 torch = pytest.importorskip("torch")
 
 from egotouch_sdk.errors import SourceError  # noqa: E402
-from egotouch_sdk.training.dataset import PatchDataset, SeededOrder, collate, finger_weights, fixed_views, view  # noqa: E402
-from egotouch_sdk.training.shards import held_out, read_folder, read_shard  # noqa: E402
+from egotouch_sdk.training.augment import view  # noqa: E402
+from egotouch_sdk.training.dataset import PatchDataset, SeededOrder, collate, finger_weights, fixed_views  # noqa: E402
+from egotouch_sdk.training.films import before_clutter, read_films, view_film  # noqa: E402
+from egotouch_sdk.training.folder import read_folder  # noqa: E402
+from egotouch_sdk.training.shards import HOVER_MAX_MM, held_out, read_shard  # noqa: E402
 
 
 def test_a_folder_is_read_whole(shard_folder: Path) -> None:
@@ -64,7 +67,7 @@ def test_a_view_depends_on_its_seed_alone(shard_folder: Path) -> None:
     first, again, other = dataset[0, 7], dataset[0, 7], dataset[0, 8]
     assert torch.equal(first.patch, again.patch) and torch.equal(first.polar, again.polar)
     assert not torch.equal(first.patch, other.patch)
-    assert first.patch.shape == (3, 100, 100) and abs(float(first.patch.mean())) < 1e-3
+    assert first.patch.shape == (1, 3, 100, 100) and abs(float(first.patch.mean())) < 1e-3
 
 
 def test_half_of_the_views_know_the_host_and_mirroring_negates_theta(shard_folder: Path) -> None:
@@ -91,7 +94,7 @@ def test_every_epoch_visits_every_patch_once_with_new_cameras() -> None:
 def test_fixed_views_are_fixed(shard_folder: Path) -> None:
     rendered = read_folder(shard_folder)[:3]
     index, batch = fixed_views(rendered, views=2, seed=1)
-    assert index == [0, 1, 2, 0, 1, 2] and batch.patch.shape == (6, 3, 100, 100)
+    assert index == [0, 1, 2, 0, 1, 2] and batch.patch.shape == (6, 1, 3, 100, 100)
     assert torch.equal(batch.patch, fixed_views(rendered, views=2, seed=1)[1].patch)
     assert torch.equal(collate([PatchDataset(rendered)[0, 5]]).patch[0], PatchDataset(rendered)[0, 5].patch)
 
@@ -100,7 +103,7 @@ def test_only_hovers_lose_their_host(shard_folder: Path) -> None:
     touch, hover = read_folder(shard_folder)[:2]
     assert touch.label.touch and not hover.label.touch
     dataset = PatchDataset([touch, hover], air_share=0.5)
-    heights = [[float(dataset[index, seed].hover_mm) for seed in range(40)] for index in (0, 1)]
+    heights = [[float(dataset[index, seed].hover_mm[0]) for seed in range(40)] for index in (0, 1)]
     assert set(heights[0]) == {0.0}
     assert set(heights[1]) == {8.0, 30.0}
 
@@ -111,3 +114,66 @@ def test_rare_fingers_are_drawn_more_often(shard_folder: Path) -> None:
     draws = [index for index, _ in SeededOrder(20, 0, weights)]
     assert weights[:4].sum() / weights.sum() == pytest.approx(1 / 3)
     assert len(draws) == 20 and set(draws) <= set(range(20))
+
+
+def test_a_film_is_read_with_the_truth_of_every_frame(film_folder: Path) -> None:
+    films = read_folder(film_folder)
+    assert len(films) == 8
+    film = films[1]
+    assert film.shown == (1, 1, 0, 2) and len(film.layers) == 3 and film.fps == 30
+    assert [label.touch for label in film.labels] == [False, False, True, True]
+    assert [label.force_n for label in film.labels] == [0.0, 0.0, 0.6, 1.4]
+    assert [label.hover_mm for label in film.labels] == [8.0, 3.0, 0.0, 0.0]
+
+
+def test_a_folder_of_films_and_patches_is_refused(film_folder: Path, shard_folder: Path, tmp_path: Path) -> None:
+    for shard in (*film_folder.glob("*"), *shard_folder.glob("*")):
+        (tmp_path / shard.name).write_bytes(shard.read_bytes())
+    with pytest.raises(SourceError, match="films and patches"):
+        read_folder(tmp_path)
+
+
+@pytest.mark.parametrize("damage", ["half", "no_field", "beyond"])
+def test_a_damaged_shard_of_films_is_named(film_folder: Path, tmp_path: Path, damage: str) -> None:
+    good, bad = film_folder / "films-0.npz", tmp_path / "films-bad.npz"
+    arrays = dict(np.load(good))
+    metas = json.loads(str(arrays["meta"]))
+    if damage == "half":
+        bad.write_bytes(good.read_bytes()[:5000])
+    else:
+        if damage == "no_field":
+            del metas[0]["shown"]
+        else:
+            metas[0]["shown"] = [0, 1, 2, 3]
+        np.savez(bad, **{**arrays, "meta": np.array(json.dumps(metas))})
+    with pytest.raises(SourceError):
+        read_films(bad)
+
+
+def test_one_camera_films_all_frames_and_a_fast_finger_smears(film_folder: Path) -> None:
+    film = replace(read_folder(film_folder)[0], shown=(1, 1, 1, 1))
+    still = replace(film, velocity_px=np.zeros((4, 2)))
+    differences, smears = [], []
+    for seed in range(12):
+        images, polar = view_film(still, np.random.default_rng(seed))
+        fast, same = view_film(film, np.random.default_rng(seed))
+        np.testing.assert_array_equal(polar, same)
+        assert images.shape == (4, 100, 100, 3) and images.dtype == np.uint8 and len(set(map(tuple, polar))) == 1
+        other, _ = view_film(still, np.random.default_rng(seed + 100))
+        colour = images.mean((1, 2))
+        differences.append((np.ptp(colour, axis=0).max(), np.abs(colour[0] - other.mean((1, 2))[0]).max()))
+        smears.append(float(np.abs(fast[0].astype(int) - images[0]).mean() - np.abs(fast[3].astype(int) - images[3]).mean()))
+    within, between = np.median(differences, axis=0)
+    assert between > 3 * within
+    assert max(smears) > 1
+
+
+def test_a_film_in_the_air_has_clutter_for_a_host(film_folder: Path) -> None:
+    film = read_folder(film_folder)[0]
+    hover = replace(film, labels=(film.labels[0],) * 4)
+    air = before_clutter(hover, np.random.default_rng(0))
+    assert all((layers.segment != 1).all() for layers in air.layers)
+    assert {label.hover_mm for label in air.labels} == {HOVER_MAX_MM}
+    np.testing.assert_array_equal(air.layers[0].albedo[air.layers[0].segment == 0], air.layers[1].albedo[air.layers[1].segment == 0])
+    told = [PatchDataset([one], air_share=1.0)[0, 1].hover_mm.tolist() for one in (film, hover)]
+    assert told == [[8.0, 3.0, 0.0, 0.0], [HOVER_MAX_MM] * 4]

@@ -35,12 +35,18 @@ def model_file(network: TouchNetwork, tmp_path_factory: pytest.TempPathFactory) 
     )
 
 
+def golden_pair(folder: Path) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
+    golden = dict(np.load(folder / "touch_golden.npz"))
+    names = ("patch", "polar", "memory")
+    return {name: golden[name] for name in names if name in golden}, {name: golden[name] for name in golden if name not in names}
+
+
 @pytest.mark.parametrize("count", [1, 3, 7])
 def test_the_file_answers_like_the_network_for_every_batch_size(network: TouchNetwork, model_file: Path, count: int) -> None:
     patch = np.random.default_rng(count).standard_normal((count, 3, 100, 100), np.float32)
     polar = np.random.default_rng(count).random((count, 2), np.float32)
     got = create_session(model_file).run(["touch_logit", "force_n", "force_sigma_n"], {"patch": patch, "polar": polar})
-    for g, e in zip(got, run_torch(network, patch, polar), strict=True):
+    for g, e in zip(got, run_torch(network, {"patch": patch, "polar": polar}).values(), strict=True):
         assert g.shape == (count,)
         np.testing.assert_allclose(g, e, atol=1e-4)
 
@@ -53,9 +59,20 @@ def test_the_written_folder_loads_as_a_touch_model(model_file: Path) -> None:
 
 
 def test_another_networks_file_is_refused(model_file: Path) -> None:
-    golden = np.load(model_file.parent / "touch_golden.npz")
+    inputs, outputs = golden_pair(model_file.parent)
     with pytest.raises(ModelError, match="differs"):
-        check_parity(model_file, golden["patch"], golden["polar"], (golden["touch_logit"] + 1, golden["force_n"], golden["force_sigma_n"]))
+        check_parity(model_file, inputs, {**outputs, "touch_logit": outputs["touch_logit"] + 1})
+
+
+def test_a_network_that_remembers_is_written_with_its_memory(tmp_path: Path) -> None:
+    torch.manual_seed(2)
+    model_file = write_model(TouchNetwork(remembers=True).eval(), ModelFacts("test", 0.5, 0.4, {"data": "noise"}), tmp_path)
+    assert TouchModel(model_file).memory_size == 128
+    inputs, outputs = golden_pair(tmp_path)
+    assert set(inputs) == {"patch", "polar", "memory"} and outputs["next_memory"].shape == (4, 128)
+    with pytest.raises(ModelError, match="differs"):
+        check_parity(model_file, {**inputs, "memory": inputs["memory"] + 1}, outputs)
+    assert "remembers" in (tmp_path / "MODEL_CARD.md").read_text()
 
 
 @pytest.mark.parametrize(("down", "up"), [(0.5, 0.6), (1.0, 0.5), (0.5, 0.0)])
@@ -65,9 +82,7 @@ def test_impossible_thresholds_are_refused(down: float, up: float) -> None:
 
 
 def test_the_shipped_file_still_gives_its_golden_outputs() -> None:
-    golden = np.load(MODELS_DIR / "touch_golden.npz")
-    outputs = golden["touch_logit"], golden["force_n"], golden["force_sigma_n"]
-    check_parity(MODELS_DIR / "touch.onnx", golden["patch"], golden["polar"], outputs)
+    check_parity(MODELS_DIR / "touch.onnx", *golden_pair(MODELS_DIR))
     parameters = json.loads((MODELS_DIR / "touch.json").read_text())["parameters"]
     assert (parameters["trained"], parameters["shipped"]) == (3_371_025, 3_339_009)
 

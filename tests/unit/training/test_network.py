@@ -57,6 +57,7 @@ def test_parameter_counts() -> None:
     network = TouchNetwork()
     assert count_parameters(network) == 3_371_025
     assert count_parameters(reparameterise(network)) == 3_339_009
+    assert count_parameters(TouchNetwork(remembers=True)) == 3_470_097
 
 
 def test_the_patch_and_the_place_both_reach_both_outputs() -> None:
@@ -84,12 +85,27 @@ def test_the_standard_error_is_bounded_and_never_shapes_the_network() -> None:
     assert [name for name, p in network.named_parameters() if p.grad is not None and p.grad.any()] == ["spread.weight", "spread.bias"]
 
 
-def test_mirroring_makes_a_hand_and_its_mirror_image_the_same() -> None:
-    network = lived_in(TouchNetwork(mirrored=True))
-    patch, polar = inputs()
+def test_a_network_without_memory_judges_every_frame_of_a_film_alone() -> None:
+    network = lived_in(TouchNetwork())
+    hidden = torch.rand(2, 5, 128)
+    assert torch.equal(network.film(hidden), network.stills(hidden))
+    assert len(network(*inputs())) == 3
+
+
+def test_a_network_that_remembers_steps_through_a_film_as_it_was_trained() -> None:
+    network = lived_in(TouchNetwork(remembers=True))
+    patch, polar = inputs(4)
     with torch.no_grad():
-        for one, other in zip(network(patch, polar), network(patch.flip(3), polar * torch.tensor([1.0, -1.0])), strict=True):
-            torch.testing.assert_close(one, other, atol=1e-5, rtol=1e-4)
+        hidden = network.embed(patch, polar)[None]
+        trained = torch.stack(network.decide(network.film(hidden)), -1)[0]
+        memory, stepped = torch.zeros(1, 128), []
+        for k in range(4):
+            *told, memory = network(patch[k : k + 1], polar[k : k + 1], memory)
+            stepped.append(torch.stack(told, -1)[0])
+        alone = torch.stack(network(patch, polar), -1)
+    torch.testing.assert_close(torch.stack(stepped), trained, atol=1e-5, rtol=1e-4)
+    torch.testing.assert_close(alone[0], trained[0], atol=1e-5, rtol=1e-4)
+    assert (alone[1:, 0] - trained[1:, 0]).abs().min() > 1e-4
 
 
 def test_the_fast_layout_trains_without_changing_the_outputs() -> None:

@@ -10,9 +10,10 @@ pytest.importorskip("onnx")
 from egotouch_sdk.errors import ConfigError, SourceError  # noqa: E402
 from egotouch_sdk.touch import TouchModel  # noqa: E402
 from egotouch_sdk.training.average import average, mean_state  # noqa: E402
+from egotouch_sdk.training.folder import read_folder  # noqa: E402
 from egotouch_sdk.training.recipe import Recipe  # noqa: E402
 from egotouch_sdk.training.run import Machine, Split, averaged_state, train  # noqa: E402
-from egotouch_sdk.training.shards import read_folder  # noqa: E402
+from egotouch_sdk.training.score import score_model  # noqa: E402
 
 pytestmark = [
     pytest.mark.slow,
@@ -57,3 +58,20 @@ def test_a_side_without_touches_is_refused(shard_folder: Path) -> None:
     hovers = [patch for patch in read_folder(shard_folder) if not patch.label.touch]
     with pytest.raises(SourceError, match="lack touches"):
         Split.of(hovers, TINY)
+
+
+@pytest.mark.parametrize("remembers", [False, True])
+def test_films_train_a_network_with_and_without_a_memory(film_folder: Path, tmp_path: Path, remembers: bool) -> None:
+    recipe = Recipe(epochs=1, batch=2, held_out_views=1, held_out_share=0.2, remembers=remembers)
+    model = train(film_folder, tmp_path, recipe, Machine(threads=1, workers=0))
+    manifest = json.loads(model.with_suffix(".json").read_text())
+    assert manifest["training"]["patches"] == 3 * 2 * 4 and manifest["training"]["steps_done"] == 3
+    assert TouchModel(model).memory_size == (128 if remembers else 0)
+    assert ("memory" in manifest["inputs"]) == remembers
+    scores = score_model(model, read_folder(film_folder), views=1, seed=0)
+    assert scores["pictures"] == 4 * 2 * 4 and 0 <= scores["auroc"] <= 1
+
+
+def test_single_patches_give_nothing_to_remember(shard_folder: Path, tmp_path: Path) -> None:
+    with pytest.raises(ConfigError, match="nothing to remember"):
+        train(shard_folder, tmp_path, Recipe(epochs=1, batch=8, remembers=True), Machine(1, 0))
