@@ -55,7 +55,7 @@ def add_parser(subparsers: Any) -> None:
     demo.add_argument("--out", type=Path, required=True, help="folder for demo.mp4 and demo_truth.json")
     add_runner_options(demo)
     demo.set_defaults(handler=_demo)
-    sheet = commands.add_parser("sheet", help="contact sheet of a folder of patches")
+    sheet = commands.add_parser("sheet", help="contact sheet of a folder of patches or films")
     sheet.add_argument("folder", type=Path)
     sheet.add_argument("picture", type=Path)
     sheet.add_argument("--rows", type=int, default=10)
@@ -133,9 +133,12 @@ def _demo(args: argparse.Namespace) -> int:
 def _sheet(args: argparse.Namespace) -> int:
     import cv2
 
+    from egotouch_sdk.synthetic.film_shards import PATTERN
     from egotouch_sdk.synthetic.sheet import contact_sheet
+    from egotouch_sdk.training.film_sheet import film_sheet
 
-    cv2.imwrite(str(args.picture), contact_sheet(args.folder, args.rows, args.seed))
+    draw = film_sheet if any(args.folder.glob(PATTERN)) else contact_sheet
+    cv2.imwrite(str(args.picture), draw(args.folder, args.rows, args.seed))
     print(args.picture)
     return 0
 

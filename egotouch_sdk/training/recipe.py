@@ -66,7 +66,7 @@ class Recipe:
     def films(cls) -> Recipe:
         """The shipped model's last stage, on films of 12 frames with a GPU."""
         return cls(
-            epochs=16, batch=32, learning_rate=1.2e-3, warmup_share=0.04, average_decay=0.998, held_out_share=0.03, held_out_views=1
+            epochs=24, batch=32, learning_rate=1.2e-3, warmup_share=0.04, average_decay=0.998, held_out_share=0.03, held_out_views=1
         )
 
     @classmethod

@@ -10,6 +10,7 @@ torch = pytest.importorskip("torch")
 from egotouch_sdk.errors import SourceError  # noqa: E402
 from egotouch_sdk.training.augment import view  # noqa: E402
 from egotouch_sdk.training.dataset import PatchDataset, SeededOrder, collate, finger_weights, fixed_views  # noqa: E402
+from egotouch_sdk.training.film_sheet import film_sheet  # noqa: E402
 from egotouch_sdk.training.films import before_clutter, read_films, view_film  # noqa: E402
 from egotouch_sdk.training.folder import read_folder  # noqa: E402
 from egotouch_sdk.training.shards import HOVER_MAX_MM, held_out, read_shard  # noqa: E402
@@ -177,3 +178,9 @@ def test_a_film_in_the_air_has_clutter_for_a_host(film_folder: Path) -> None:
     np.testing.assert_array_equal(air.layers[0].albedo[air.layers[0].segment == 0], air.layers[1].albedo[air.layers[1].segment == 0])
     told = [PatchDataset([one], air_share=1.0)[0, 1].hover_mm.tolist() for one in (film, hover)]
     assert told == [[8.0, 3.0, 0.0, 0.0], [HOVER_MAX_MM] * 4]
+
+
+def test_a_sheet_shows_a_film_a_row(film_folder: Path, tmp_path: Path) -> None:
+    assert film_sheet(film_folder, rows=3).shape == (300, 400, 3)
+    with pytest.raises(SourceError, match="no films"):
+        film_sheet(tmp_path)
