@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from math import exp, log, pi, radians
 
@@ -32,6 +32,9 @@ MIX_WEIGHTS: dict[LightMix, tuple[tuple[float, float], tuple[float, float], tupl
 CREASE_DEPTH = (0.4, 0.9)
 #: Share of pictures with little or no colour, so that colour is never all there is to go by (our choice).
 PALE_SHARE = 0.15
+#: What an ordinary camera in good order gives: the middle of what training sees (our choice).
+_CONTRAST, _HAZE, _SATURATION = (0.8, 1.12), (-0.03, 0.05), (0.8, 1.3)
+_SHARPENING, _OPTICAL_BLUR_PX, _JPEG, _ORDINARY_PX = (0.2, 0.9), (0.4, 1.1), (70, 96), 60
 #: Largest tip error of the hand tracker in patch pixels, 12 px = 4.8 mm (its p90 in our rendering study was 3.9 to 6.5 mm).
 MAX_SHIFT_PX = 12.0
 #: Largest error of the finger's direction (our choice).
@@ -119,6 +122,20 @@ def draw_settings(rng: np.random.Generator) -> CameraSettings:
         sharpening=float(max(0.0, rng.uniform(-0.3, 1.2))),
         jpeg_quality=int(rng.integers(45, 96)),
         distractor=_distractor(rng),
+    )
+
+
+def in_good_order(drawn: CameraSettings, rng: np.random.Generator) -> CameraSettings:
+    """The same draw from an ordinary camera in good order: training exaggerates, the study and the choice of thresholds do not."""
+    return replace(
+        drawn,
+        contrast=float(rng.uniform(*_CONTRAST)),
+        haze=float(rng.uniform(*_HAZE)),
+        saturation=float(rng.uniform(*_SATURATION)),
+        sharpening=float(rng.uniform(*_SHARPENING)),
+        optical_blur_px=float(rng.uniform(*_OPTICAL_BLUR_PX)),
+        jpeg_quality=int(rng.integers(*_JPEG)),
+        native_px=max(drawn.native_px, _ORDINARY_PX),
     )
 
 

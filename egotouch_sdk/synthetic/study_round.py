@@ -13,7 +13,7 @@ from egotouch_sdk.study_data import RoundMeta, StudyRound
 from egotouch_sdk.surface import Surface
 from egotouch_sdk.synthetic.backdrop import draw_backdrop
 from egotouch_sdk.synthetic.camera import LUMA, photograph
-from egotouch_sdk.synthetic.camera_settings import MIX_WEIGHTS, CameraSettings, LightMix, draw_settings
+from egotouch_sdk.synthetic.camera_settings import MIX_WEIGHTS, CameraSettings, LightMix, draw_settings, in_good_order
 from egotouch_sdk.synthetic.finger_motion import FingerMotion
 from egotouch_sdk.synthetic.hand_rig import HandRig
 from egotouch_sdk.synthetic.head_motion import HeadMotion
@@ -38,9 +38,6 @@ _NOISE, _DIM_NOISE, _DAYLIGHT_NOISE = (0.001, 0.006), 2.0, 0.6
 _METERING, _MIDDLE_LUMA, _SKIN_LEVEL = 0.55, 0.36, (0.05, 0.42)
 #: Bounds that keep the noise of few samples from looking like blotches and hair, and the spread of tone from one round to the next.
 _MAX_OCCLUSION, _MIN_SAMPLE_BLUR_PX, _TONE_SPREAD = 1.7, 1.5, 0.04
-#: What the pictures of a camera in good order look like: the middle of the training camera's ranges (our choice).
-_CONTRAST, _HAZE, _SATURATION = (0.8, 1.12), (-0.03, 0.05), (0.8, 1.3)
-_SHARPENING, _OPTICAL_BLUR_PX, _JPEG = (0.2, 0.9), (0.4, 1.1), (70, 96)
 
 
 @dataclass(frozen=True, slots=True)
@@ -156,7 +153,7 @@ def _draw_camera(rng: np.random.Generator, plan: RoundPlan, tone: tuple[float, f
     warmth, tint = rng.normal(-0.02 if plan.outdoors else 0.02, 0.07, 3), rng.normal(0, 0.015, 3)
     noise = np.exp(rng.uniform(*np.log(_NOISE))) * (_DIM_NOISE if mix is LightMix.DIM else _DAYLIGHT_NOISE if plan.outdoors else 1.0)
     metered = (float(np.array(tone) @ LUMA) / _MIDDLE_LUMA) ** _METERING
-    return replace(
+    lit = replace(
         drawn,
         light_gains=(weights[:, None] * np.exp(np.stack([warmth, tint, -warmth], 1))).astype(np.float32),
         occlusion_power=min(drawn.occlusion_power, _MAX_OCCLUSION),
@@ -164,16 +161,11 @@ def _draw_camera(rng: np.random.Generator, plan: RoundPlan, tone: tuple[float, f
         folds=drawn.folds[:0],
         tone_power=float(np.exp(rng.normal(0, _TONE_SPREAD))),
         skin_level=float(np.clip(drawn.skin_level * metered, *_SKIN_LEVEL)),
-        native_px=round(STUDY_CAMERAS[plan.participant % len(STUDY_CAMERAS)].px_per_mm(distance_m) * PATCH_MM),
-        contrast=float(rng.uniform(*_CONTRAST)),
-        haze=float(rng.uniform(*_HAZE)),
-        saturation=float(rng.uniform(*_SATURATION)),
-        sharpening=float(rng.uniform(*_SHARPENING)),
-        optical_blur_px=float(rng.uniform(*_OPTICAL_BLUR_PX)),
-        jpeg_quality=int(rng.integers(*_JPEG)),
         noise=float(noise),
         distractor=None,
     )
+    px_per_mm = STUDY_CAMERAS[plan.participant % len(STUDY_CAMERAS)].px_per_mm(distance_m)
+    return replace(in_good_order(lit, rng), native_px=round(px_per_mm * PATCH_MM))
 
 
 def _settings_at(scene: _Scene, footage: Footage, k: int, time_s: float) -> CameraSettings:

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from egotouch_sdk.patches import HOST_UNKNOWN
 from egotouch_sdk.synthetic.camera import photograph
-from egotouch_sdk.synthetic.camera_settings import draw_settings
+from egotouch_sdk.synthetic.camera_settings import CameraSettings, draw_settings, in_good_order
 from egotouch_sdk.training.shards import RenderedPatch
 
 #: Share of training samples whose host place is withheld, so that the model also works when the host is unknown.
@@ -25,10 +25,16 @@ DRAG_SHARE, DRAG_MOTION = 0.35, 0.35
 FLIP_SHARE = 0.5
 
 
-def view(rendered: RenderedPatch, rng: np.random.Generator) -> tuple[npt.NDArray[np.uint8], tuple[float, float]]:
-    """One camera picture, uint8 (100, 100, 3) RGB, with its (r_palms, theta_rad)."""
+def draw_camera(rng: np.random.Generator, ordinary: bool) -> CameraSettings:
+    """One camera of training's wide range, or an ordinary one in good order."""
+    drawn = draw_settings(rng)
+    return in_good_order(drawn, rng) if ordinary else drawn
+
+
+def view(rendered: RenderedPatch, rng: np.random.Generator, ordinary: bool = False) -> tuple[npt.NDArray[np.uint8], tuple[float, float]]:
+    """One camera picture, uint8 (100, 100, 3) RGB, with its (r_palms, theta_rad); `ordinary` as in `draw_camera`."""
     label = rendered.label
-    settings = draw_settings(rng)
+    settings = draw_camera(rng, ordinary)
     if label.touch:
         settings = replace(settings, finger_motion_px=_motion_on_skin(settings.finger_motion_px, rng))
     image = photograph(rendered.layers, settings, rng)

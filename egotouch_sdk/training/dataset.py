@@ -35,11 +35,13 @@ class Sample(NamedTuple):
 
 
 class PatchDataset(Dataset[Sample]):
-    """Item (index, seed) is patch or film `index` seen by the random camera of `seed`; `air_share` of the hovers lose their host."""
+    """Item (index, seed) is patch or film `index` seen by the random camera of `seed`; `air_share` of the hovers lose their host.
 
-    def __init__(self, rendered: Sequence[Rendered], air_share: float = 0.0) -> None:
-        self.rendered = rendered
-        self.air_share = air_share
+    `ordinary` cameras are in good order; training's vary more widely than cameras do.
+    """
+
+    def __init__(self, rendered: Sequence[Rendered], air_share: float = 0.0, ordinary: bool = False) -> None:
+        self.rendered, self.air_share, self.ordinary = rendered, air_share, ordinary
 
     def __len__(self) -> int:
         return len(self.rendered)
@@ -51,11 +53,11 @@ class PatchDataset(Dataset[Sample]):
         in_air = not any(label.touch for label in rendered.labels) and rng.random() < self.air_share
         if isinstance(rendered, RenderedFilm):
             rendered = before_clutter(rendered, rng) if in_air else rendered
-            images, polar = view_film(rendered, rng)
+            images, polar = view_film(rendered, rng, self.ordinary)
         else:
             if in_air:
                 rendered = RenderedPatch(in_the_air(rendered.layers, rng), replace(rendered.label, hover_mm=HOVER_MAX_MM))
-            image, place = view(rendered, rng)
+            image, place = view(rendered, rng, self.ordinary)
             images, polar = image[None], np.array([place], np.float32)
         return Sample(
             patch=torch.from_numpy(normalise(images)),
@@ -98,7 +100,7 @@ def collate(samples: Sequence[Sample]) -> Sample:
 
 
 def fixed_views(rendered: Sequence[Rendered], views: int, seed: int) -> tuple[list[int], Sample]:
-    """The held-out pictures: `views` fixed random cameras per patch or film, as their indices and one batch."""
+    """The held-out pictures: `views` fixed ordinary cameras per patch or film, as their indices and one batch."""
     keys = [(i, int(np.random.default_rng([seed, i, v]).integers(2**62))) for v in range(views) for i in range(len(rendered))]
-    dataset = PatchDataset(rendered)
+    dataset = PatchDataset(rendered, ordinary=True)
     return [index for index, _ in keys], collate([dataset[key] for key in keys])

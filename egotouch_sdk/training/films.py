@@ -16,11 +16,11 @@ from egotouch_sdk.errors import SourceError
 from egotouch_sdk.patches import HOST_UNKNOWN, PATCH_PX_PER_MM
 from egotouch_sdk.synthetic.air import in_the_air
 from egotouch_sdk.synthetic.camera import LightLayers, photograph
-from egotouch_sdk.synthetic.camera_settings import MAX_SHIFT_PX, MAX_TURN_RAD, SCALE_RANGE, CameraSettings, draw_settings
+from egotouch_sdk.synthetic.camera_settings import MAX_SHIFT_PX, MAX_TURN_RAD, SCALE_RANGE, CameraSettings
 from egotouch_sdk.synthetic.head_motion import HeadMotion
 from egotouch_sdk.synthetic.study_round import MAX_CAMERA_PX, MAX_FINGER_PX, bounded
 from egotouch_sdk.synthetic.tracker_error import draw_tracker_error
-from egotouch_sdk.training.augment import FLIP_SHARE, HOST_UNKNOWN_SHARE, POLAR_JITTER
+from egotouch_sdk.training.augment import FLIP_SHARE, HOST_UNKNOWN_SHARE, POLAR_JITTER, draw_camera
 from egotouch_sdk.training.shards import HOVER_MAX_MM, PatchLabel
 
 #: Exposure times in seconds, each factor equally likely: from sun to a dim room (our choice).
@@ -86,12 +86,15 @@ def before_clutter(film: RenderedFilm, rng: np.random.Generator) -> RenderedFilm
     return replace(film, layers=layers, labels=tuple(replace(label, hover_mm=HOVER_MAX_MM) for label in film.labels))
 
 
-def view_film(film: RenderedFilm, rng: np.random.Generator) -> tuple[npt.NDArray[np.uint8], npt.NDArray[np.float32]]:
+def view_film(
+    film: RenderedFilm, rng: np.random.Generator, ordinary: bool = False
+) -> tuple[npt.NDArray[np.uint8], npt.NDArray[np.float32]]:
     """The film through one random camera: patches uint8 (T, 100, 100, 3) RGB and (r_palms, theta_rad) float32 (T, 2).
 
+    `ordinary` as in `draw_camera`.
     Camera, light and skin tone are drawn once, the tracker's error and the noise for each frame; smears follow the true motion.
     """
-    settings = [_settings_at(*frame) for frame in _frames(film, draw_settings(rng), rng)]
+    settings = [_settings_at(*frame) for frame in _frames(film, draw_camera(rng, ordinary), rng)]
     images = np.stack([photograph(film.layers[shown], each, rng) for shown, each in zip(film.shown, settings, strict=True)])
     polar = np.array([(label.r_palms, label.theta_rad) for label in film.labels])
     polar = polar * [np.exp(rng.normal(0, POLAR_JITTER[0])), 1.0] + [0.0, rng.normal(0, POLAR_JITTER[1])]

@@ -97,7 +97,7 @@ def test_fixed_views_are_fixed(shard_folder: Path) -> None:
     index, batch = fixed_views(rendered, views=2, seed=1)
     assert index == [0, 1, 2, 0, 1, 2] and batch.patch.shape == (6, 1, 3, 100, 100)
     assert torch.equal(batch.patch, fixed_views(rendered, views=2, seed=1)[1].patch)
-    assert torch.equal(collate([PatchDataset(rendered)[0, 5]]).patch[0], PatchDataset(rendered)[0, 5].patch)
+    assert torch.equal(collate([PatchDataset(rendered, ordinary=True)[0, 5]]).patch[0], PatchDataset(rendered, ordinary=True)[0, 5].patch)
 
 
 def test_only_hovers_lose_their_host(shard_folder: Path) -> None:
