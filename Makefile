@@ -64,8 +64,8 @@ schema: ## lint the schema and compare it with the last release (needs npm)
 bench: $(VENV)/.run ## milliseconds per stage and frames per second on this machine
 	$(BIN)/egotouch bench $(ARGS)
 
-# As the shipped model was made: two stages on single patches and one on films, each of other people; then the mean of the last two,
-# calibrated on people of none. Pictures differ by their random numbers, so this gives its like, not its bits. Stop and start it as you like.
+# As the shipped model was made: two stages on single patches and one on films, each of other scenes; then a mean of the last two,
+# calibrated on people who are in none. Pictures differ by their random numbers, so this gives its like, not its bits. Stop and start it as you like.
 TRAIN := OPENBLAS_NUM_THREADS=1 $(BIN)/egotouch train --workers 8
 model: $(BIN)/python ## render and train the like of the shipped touch model (a GPU: 15 minutes; two cores: more than a day)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[synthetic,train]' $(TORCH)

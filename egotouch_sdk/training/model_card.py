@@ -34,8 +34,8 @@ _LIMITS = """
 Trained and calibrated on rendered pictures only; no picture of a real person went into weights, calibration or threshold values.
 Real pictures listed under "Measured" were looked at during development, as "What was tried" says, so they are no blind test.
 Figures on rendered pictures say nothing about real skin by themselves. Forces come from a contact model, not from a sensor:
-on the real thumb their order does not follow the sensor, so do not rely on them yet.
-Sleeves, watches and rings were in the study only, not in training. Gloves, wet skin and very dim rooms are not covered.
+on the real thumb their order hardly follows the sensor, so do not rely on them yet.
+Watches and rings were in the study only, not in training. Gloves, wet skin and very dim rooms are not covered.
 A touch below half a newton in soft light looks to it like a fingertip a millimetre or two above the skin.
 """
 
