@@ -16,7 +16,7 @@ from egotouch_sdk.surface import Surface
 
 _EXAMPLES = """examples:
   egotouch synth patches --out data/patches --series 1000   # 8,000 labelled patches; stop and restart as you like
-  egotouch synth films --out data/films --scenes 2000       # 48,000 frames of moving fingers, for a model with a memory
+  egotouch synth films --out data/films --scenes 2000       # 48,000 frames of moving fingers
   egotouch synth patches --out data/patches --ray auto     # the same on a Ray cluster
   egotouch synth demo --scratch data/demo --out data        # the clip that `egotouch demo` plays
   egotouch synth sheet data/patches sheet.png               # look at some of them
@@ -41,9 +41,9 @@ def add_parser(subparsers: Any) -> None:
     patches.add_argument("--seed", type=int, default=0)
     add_runner_options(patches)
     patches.set_defaults(handler=_patches)
-    films = commands.add_parser("films", help="render labelled films of a moving fingertip, for models with a memory (resumable)")
+    films = commands.add_parser("films", help="render labelled films of a moving fingertip (resumable)")
     films.add_argument("--out", type=Path, required=True, help="folder for the shards")
-    films.add_argument("--scenes", type=positive_int, default=2000, help="poses, with two films of 12 frames each (default 2000)")
+    films.add_argument("--scenes", type=positive_int, default=2000, help="poses of two films of 12 frames, 2 MB each (default 2000)")
     films.add_argument("--participants", type=positive_int, default=40, help="different people (default 40)")
     films.add_argument("--first-participant", type=int, default=0, metavar="N", help="number of the first of them (default 0)")
     films.add_argument("--samples", type=positive_int, default=6, help="light paths per pixel (default 6)")
@@ -66,7 +66,7 @@ def add_parser(subparsers: Any) -> None:
 
 def _add_study(commands: Any) -> None:
     study = commands.add_parser("study", help="render the simulated study, rounds of a finger that moves, at 30 fps (resumable)")
-    study.add_argument("--out", type=Path, required=True, help="folder for study.json and the rounds (about 500 MB for all)")
+    study.add_argument("--out", type=Path, required=True, help="folder for study.json and the rounds (about 700 MB for all)")
     study.add_argument("--participants", type=positive_int, default=15, help="the first of the 15 participants (default 15)")
     study.add_argument("--rounds", type=positive_int, default=36, help="rounds of each, a balanced choice of the 36 (default 36)")
     study.add_argument("--seconds", type=positive_float, default=3.0, help="length of a round (default 3)")
