@@ -24,6 +24,8 @@ WIDE_FROM: Final = 130
 MAX_ENTRIES: Final = 20_000
 #: The rate shown is measured over so many frames.
 FPS_FRAMES: Final = 30
+#: A short clip may end before the screen has its log and keys: then its picture waits this long and looks again.
+LAYOUT_S: Final = 0.05
 
 MOVES_HIDDEN: Final = "moves hidden, f shows them"
 
@@ -189,5 +191,8 @@ class TraceApp(App[int]):
         return (len(self._times_ns) - 1) * 1e9 / (self._times_ns[-1] - self._times_ns[0])
 
     def _save_screenshot(self, path: Path) -> None:
+        if not (self.query_one("#log").size.width and self.query("FooterKey")):
+            self.set_timer(LAYOUT_S, lambda: self.call_after_refresh(self._save_screenshot, path))
+            return
         path.write_text(self.export_screenshot(title=f"egotouch debug-events {self._source_name}"), encoding="utf-8")
         self.exit(0)
