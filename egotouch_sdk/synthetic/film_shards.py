@@ -7,14 +7,11 @@ RGB, `segment` uint8 (U, S, S), `depth_mm` float16 (U, S, S), S = 132 at 2.5 px/
 
 from __future__ import annotations
 
-import json
-import os
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
+from egotouch_sdk.synthetic.shards import write_layers
 from egotouch_sdk.synthetic.training_film import LabelledFilm
 
 PATTERN = "films-*.npz"
@@ -28,14 +25,4 @@ def write_films(path: Path, films: Sequence[LabelledFilm]) -> None:
     for each in films:
         metas.append({**each.labels, "first": first, "pictures": len(each.layers)})
         first += len(each.layers)
-    scratch = path.with_suffix(f".{os.getpid()}.tmp")
-    with scratch.open("wb") as file:
-        np.savez_compressed(
-            file,
-            light=np.stack([picture.light for picture in layers]),
-            albedo=np.stack([picture.albedo for picture in layers]),
-            segment=np.stack([picture.segment for picture in layers]),
-            depth_mm=np.stack([picture.depth_mm for picture in layers]),
-            meta=np.array(json.dumps(metas)),
-        )
-    scratch.replace(path)
+    write_layers(path, layers, metas)

@@ -14,8 +14,8 @@ from egotouch_sdk.synthetic.camera import LightLayers
 from egotouch_sdk.synthetic.finger_motion import FingerMotion, FingerPath
 from egotouch_sdk.synthetic.lights import Lights
 from egotouch_sdk.synthetic.linalg import Array, reject_from, unit
-from egotouch_sdk.synthetic.render import Backdrop, Camera, Layers, render_layers
-from egotouch_sdk.synthetic.srgb import linear_to_srgb
+from egotouch_sdk.synthetic.render import Backdrop, Camera, render_layers
+from egotouch_sdk.synthetic.shards import light_layers
 from egotouch_sdk.synthetic.stage import Stage, Touch
 
 #: Side of what is rendered, in pixels at 2.5 per mm: the 100 px patch and 16 px around it for a tracker's errors.
@@ -140,12 +140,3 @@ def seen_polar(stage: Stage, camera: Camera, error_mm: npt.NDArray[np.floating] 
     host = stage.host_landmarks_m[[HandJoint.WRIST, HandJoint.MIDDLE_FINGER_MCP]]
     wrist, mcp, at = wide.project(np.vstack([host, tip]))[:, :2]
     return polar(wrist, mcp, at, mirror=False)
-
-
-def light_layers(layers: Layers) -> LightLayers:
-    """Rendered layers as training reads them from a shard, with the same rounding."""
-    middle = layers.depth_m.shape[0] // 2
-    depth_mm = np.clip((layers.depth_m - layers.depth_m[middle, middle]) * 1e3, -300, 300)
-    return LightLayers(
-        np.clip(layers.light, 0, 60).astype(np.float16), linear_to_srgb(layers.albedo), layers.segment, depth_mm.astype(np.float16)
-    )

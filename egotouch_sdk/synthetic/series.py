@@ -16,7 +16,7 @@ from egotouch_sdk.synthetic.linalg import Array, reject_from, unit
 from egotouch_sdk.synthetic.plan import draw_plan, draw_subject
 from egotouch_sdk.synthetic.render import Camera, Layers, render_layers
 from egotouch_sdk.synthetic.skin import SkinIdentity
-from egotouch_sdk.synthetic.stage import ImpossibleSceneError, Stage, Touch
+from egotouch_sdk.synthetic.stage import Stage, Touch, draw_possible
 
 #: Stored side in pixels at 2.5 px/mm: the 100 px patch plus room for rotation, scale and shift at training time.
 SIDE_PX = 144
@@ -36,16 +36,9 @@ class LabelledLayers:
 
 
 def draw_stage(rng: np.random.Generator, host: HandRig, touching: HandRig, identity: SkinIdentity) -> Stage:
-    """Draw until a scene is possible (about one in six is), first on coarse meshes; raises `ImpossibleSceneError` after 400 draws."""
+    """A possible scene of any finger and place; raises `ImpossibleSceneError` after 400 draws."""
     finger, place = draw_subject(rng)
-    for _ in range(_MAX_DRAWS):
-        plan = draw_plan(rng, host, finger, place)
-        try:
-            Stage(plan, host, touching, identity, detail=False)
-            return Stage(plan, host, touching, identity, detail=True)
-        except ImpossibleSceneError:
-            continue
-    raise ImpossibleSceneError(f"no possible scene in {_MAX_DRAWS} draws")
+    return draw_possible(lambda: draw_plan(rng, host, finger, place), host, touching, identity, _MAX_DRAWS)
 
 
 def draw_depths(rng: np.random.Generator) -> list[dict[str, float]]:

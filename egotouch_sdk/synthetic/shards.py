@@ -11,25 +11,40 @@ import json
 import os
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
+from egotouch_sdk.synthetic.camera import LightLayers
+from egotouch_sdk.synthetic.render import Layers
 from egotouch_sdk.synthetic.series import LabelledLayers
 from egotouch_sdk.synthetic.srgb import linear_to_srgb
 
 
 def write_shard(path: Path, patches: Sequence[LabelledLayers]) -> None:
     """Write one shard; a reader never sees it half done."""
-    centre = patches[0].layers.depth_m.shape[0] // 2
-    depth = np.stack([p.layers.depth_m for p in patches])
+    write_layers(path, [light_layers(patch.layers) for patch in patches], [patch.labels for patch in patches])
+
+
+def write_layers(path: Path, layers: Sequence[LightLayers], metas: Sequence[dict[str, Any]]) -> None:
+    """Write pictures and what is true of them as one file; a reader never sees it half done."""
     scratch = path.with_suffix(f".{os.getpid()}.tmp")
     with scratch.open("wb") as file:
         np.savez_compressed(
             file,
-            light=np.stack([np.clip(p.layers.light, 0, 60).astype(np.float16) for p in patches]),
-            albedo=np.stack([linear_to_srgb(p.layers.albedo) for p in patches]),
-            segment=np.stack([p.layers.segment for p in patches]),
-            depth_mm=np.clip((depth - depth[:, centre : centre + 1, centre : centre + 1]) * 1e3, -300, 300).astype(np.float16),
-            meta=np.array(json.dumps([p.labels for p in patches])),
+            light=np.stack([picture.light for picture in layers]),
+            albedo=np.stack([picture.albedo for picture in layers]),
+            segment=np.stack([picture.segment for picture in layers]),
+            depth_mm=np.stack([picture.depth_mm for picture in layers]),
+            meta=np.array(json.dumps(metas)),
         )
     scratch.replace(path)
+
+
+def light_layers(layers: Layers) -> LightLayers:
+    """Rendered layers as training reads them from a shard, with the same rounding."""
+    middle = layers.depth_m.shape[0] // 2
+    depth_mm = np.clip((layers.depth_m - layers.depth_m[middle, middle]) * 1e3, -300, 300)
+    return LightLayers(
+        np.clip(layers.light, 0, 60).astype(np.float16), linear_to_srgb(layers.albedo), layers.segment, depth_mm.astype(np.float16)
+    )

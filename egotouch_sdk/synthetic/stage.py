@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -282,6 +283,29 @@ class Stage:
         red = nail * smoothstep(0.7, 0.45, toward_tip) * strength * 0.4
         albedo = albedo * (1 - white[:, None]) + white[:, None] * np.minimum(1.0, albedo * 1.1 + [0.08, 0.12, 0.10])
         return np.asarray(albedo * np.exp(-red[:, None] * np.array([0.05, 0.5, 0.45])))
+
+
+def draw_possible(
+    draw: Callable[[], ScenePlan],
+    host: HandRig,
+    touching: HandRig,
+    identity: SkinIdentity,
+    draws: int,
+    dress: Callable[[ScenePlan], SkinIdentity] | None = None,
+    fineness: Fineness = WIDE_DETAIL,
+) -> Stage:
+    """Draw plans until a scene is possible (about one in six is), first on coarse meshes; raises `ImpossibleSceneError` after `draws`.
+
+    `dress` gives the person's skin with what is worn in that scene.
+    """
+    for _ in range(draws):
+        plan = draw()
+        try:
+            Stage(plan, host, touching, identity, detail=False)
+            return Stage(plan, host, touching, dress(plan) if dress else identity, detail=True, fineness=fineness)
+        except ImpossibleSceneError:
+            continue
+    raise ImpossibleSceneError(f"no possible scene in {draws} draws")
 
 
 def _towards_pale(albedo: Array, amount: Array) -> Array:

@@ -22,9 +22,9 @@ from egotouch_sdk.synthetic.linalg import Array
 from egotouch_sdk.synthetic.moving_scene import BLANCH_S, Footage, MovingScene, film, seen_polar, tip_travel_px
 from egotouch_sdk.synthetic.outfit import draw_outfit, dress_both
 from egotouch_sdk.synthetic.participants import PARTICIPANTS, study_skin
-from egotouch_sdk.synthetic.plan import draw_plan
+from egotouch_sdk.synthetic.plan import ScenePlan, draw_plan
 from egotouch_sdk.synthetic.skin import SkinIdentity
-from egotouch_sdk.synthetic.stage import PATCH_DETAIL, ImpossibleSceneError, Stage
+from egotouch_sdk.synthetic.stage import PATCH_DETAIL, ImpossibleSceneError, Stage, draw_possible
 from egotouch_sdk.synthetic.study_plan import LIGHTS, STUDY_CAMERAS, RoundPlan
 from egotouch_sdk.synthetic.tracker_error import TrackerError, draw_tracker_error
 
@@ -130,15 +130,16 @@ def _draw_scene(plan: RoundPlan, level: int) -> _Scene:
 
 def _draw_stage(rng: np.random.Generator, plan: RoundPlan, level: int) -> Stage:
     skin, host, touching = _skin(plan.participant, level), HandRig("left", level), HandRig("right", level)
-    for _ in range(_MAX_DRAWS):
-        scene = draw_plan(rng, host, plan.finger, plan.place)
-        try:
-            Stage(scene, host, touching, skin, detail=False)
-            outfit = draw_outfit(rng, plan.participant, plan.outdoors, host.wrist_coords[scene.site])
-            return Stage(scene, host, touching, dress_both(skin, outfit), detail=True, fineness=PATCH_DETAIL)
-        except ImpossibleSceneError:
-            continue
-    raise ImpossibleSceneError(f"no possible scene in {_MAX_DRAWS} draws for participant {plan.participant}, round {plan.number}")
+
+    def dress(scene: ScenePlan) -> SkinIdentity:
+        return dress_both(skin, draw_outfit(rng, plan.participant, plan.outdoors, host.wrist_coords[scene.site]))
+
+    try:
+        return draw_possible(
+            lambda: draw_plan(rng, host, plan.finger, plan.place), host, touching, skin, _MAX_DRAWS, dress, PATCH_DETAIL
+        )
+    except ImpossibleSceneError as problem:
+        raise ImpossibleSceneError(f"{problem} for participant {plan.participant}, round {plan.number}") from problem
 
 
 def _draw_camera(rng: np.random.Generator, plan: RoundPlan, tone: tuple[float, float, float], distance_m: float) -> CameraSettings:

@@ -16,9 +16,9 @@ from egotouch_sdk.synthetic.lights import draw_lights
 from egotouch_sdk.synthetic.linalg import Array
 from egotouch_sdk.synthetic.moving_scene import BLANCH_S, Footage, MovingScene, film, seen_polar
 from egotouch_sdk.synthetic.outfit import draw_sleeves, dress_both
-from egotouch_sdk.synthetic.plan import draw_plan, draw_subject
+from egotouch_sdk.synthetic.plan import ScenePlan, draw_plan, draw_subject
 from egotouch_sdk.synthetic.skin import SkinIdentity
-from egotouch_sdk.synthetic.stage import PATCH_DETAIL, ImpossibleSceneError, Stage
+from egotouch_sdk.synthetic.stage import PATCH_DETAIL, Stage, draw_possible
 
 #: Frames of a film: 0.4 s at 30 fps, from before a finger comes down until it rests.
 FRAMES = 12
@@ -55,15 +55,11 @@ def render_films(
 
 def _draw_stage(rng: np.random.Generator, host: HandRig, touching: HandRig, identity: SkinIdentity) -> Stage:
     finger, place = draw_subject(rng)
-    for _ in range(_MAX_DRAWS):
-        plan = draw_plan(rng, host, finger, place)
-        try:
-            Stage(plan, host, touching, identity, detail=False)
-            dressed = dress_both(identity, draw_sleeves(rng, host.wrist_coords[plan.site])) if rng.random() < _SLEEVED else identity
-            return Stage(plan, host, touching, dressed, detail=True, fineness=PATCH_DETAIL)
-        except ImpossibleSceneError:
-            continue
-    raise ImpossibleSceneError(f"no possible scene in {_MAX_DRAWS} draws")
+
+    def dress(plan: ScenePlan) -> SkinIdentity:
+        return dress_both(identity, draw_sleeves(rng, host.wrist_coords[plan.site])) if rng.random() < _SLEEVED else identity
+
+    return draw_possible(lambda: draw_plan(rng, host, finger, place), host, touching, identity, _MAX_DRAWS, dress, PATCH_DETAIL)
 
 
 def _render_film(rng: np.random.Generator, stage: Stage, samples: int, seed: int) -> LabelledFilm:

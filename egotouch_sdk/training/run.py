@@ -213,16 +213,11 @@ def calibrate_and_score(
     index, pictures = fixed_views(patches, views, seed)
     labels = [label for i in index for label in patches[i].labels]
     logit, force_n, sigma_n = (values.ravel() for values in predict(network, pictures))
-    calibration = calibrate(labels_touch(labels), logit, clear_hovers(labels))
+    calibration = calibrate(np.array([label.touch for label in labels]), logit, clear_hovers(labels))
     probability = 1 / (1 + np.exp(-(calibration.scale * logit.astype(np.float64) + calibration.shift)))
     measured = held_out_report(labels, probability, force_n, calibration.down)
     measured["force_within_one_sigma"] = coverage(labels, force_n, sigma_n)
     return calibrated(network, calibration), calibration, measured
-
-
-def labels_touch(labels: Sequence[PatchLabel]) -> npt.NDArray[np.bool_]:
-    """Which frames (N,) touch."""
-    return np.array([label.touch for label in labels])
 
 
 def clear_hovers(labels: Sequence[PatchLabel]) -> npt.NDArray[np.bool_]:
