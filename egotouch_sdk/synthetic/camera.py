@@ -1,11 +1,12 @@
 """The training-time camera: rendered light layers and albedo in, a patch as a real camera would give it out.
 
 A render stores the light of separate lamps and the skin's albedo; mixing, colouring, exposing and blurring them here gives many
-pictures of one render. Order of steps as in a camera: light, skin, framing, motion, optics, sensor, tone, JPEG, upscaling.
+pictures of one render. Order of steps as in a camera: light, skin, framing, motion, lens, sensor, tone, JPEG or H.264, upscaling.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import ceil, cos, hypot, pi, sin, sqrt
 
@@ -16,6 +17,8 @@ import numpy.typing as npt
 from egotouch_sdk.errors import FrameError
 from egotouch_sdk.observation import PATCH_PX
 from egotouch_sdk.synthetic.camera_settings import CameraSettings
+from egotouch_sdk.synthetic.coding import through_h264, through_jpeg
+from egotouch_sdk.synthetic.sensor import LUMA, develop, upscale
 from egotouch_sdk.synthetic.srgb import srgb_to_linear
 
 FloatImage = npt.NDArray[np.float32]
@@ -23,8 +26,6 @@ FloatImage = npt.NDArray[np.float32]
 BACKGROUND, HOST, TOUCHING_HAND = 0, 1, 2
 #: Step in depth at which the groove along the outline has lost two thirds of its strength, in millimetres (our choice).
 CREASE_STEP_MM = 4.0
-#: Luma weights (ITU-R BT.709), linear RGB.
-LUMA = np.array([0.2126, 0.7152, 0.0722], np.float32)
 #: Linear value of each sRGB code (IEC 61966-2-1).
 SRGB_TO_LINEAR = srgb_to_linear(np.arange(256)).astype(np.float32)
 
@@ -55,6 +56,24 @@ class LightLayers:
 
 def photograph(layers: LightLayers, settings: CameraSettings, rng: np.random.Generator) -> npt.NDArray[np.uint8]:
     """A patch, uint8 (100, 100, 3) RGB, through the given camera; `rng` draws the sensor's noise."""
+    return photograph_film([layers], [settings], rng)[0]
+
+
+def photograph_film(
+    layers: Sequence[LightLayers], settings: Sequence[CameraSettings], rng: np.random.Generator
+) -> list[npt.NDArray[np.uint8]]:
+    """The T patches of a film as `photograph` gives them, coded as one video where the first frame's settings have a `crf`.
+
+    The pixels across the patch must not change in a film.
+    """
+    raw = [develop(_to_sensor(each, how), how, rng) for each, how in zip(layers, settings, strict=True)]
+    if settings[0].crf is not None:
+        return [upscale(picture) for picture in through_h264(raw, settings[0].crf)]
+    return [upscale(through_jpeg(picture, how.jpeg_quality)) for picture, how in zip(raw, settings, strict=True)]
+
+
+def _to_sensor(layers: LightLayers, settings: CameraSettings) -> FloatImage:
+    """Linear light on the sensor, float (100, 100, 3), exposed."""
     to_layers = _framing(layers.segment.shape[0], settings)
     light = _warp(np.asarray(layers.light, np.float32), to_layers)
     albedo = _warp(SRGB_TO_LINEAR[layers.albedo], to_layers)
@@ -69,8 +88,7 @@ def photograph(layers: LightLayers, settings: CameraSettings, rng: np.random.Gen
         image = _add_distractor(image, segment, settings.distractor)
     image = _blur_moving_finger(image, segment, settings.finger_motion_px)
     image = _optics(image, settings)
-    image = _expose(image, segment, settings)
-    return _develop(image, settings, rng)
+    return _expose(image, segment, settings)
 
 
 def _framing(side_px: int, settings: CameraSettings) -> npt.NDArray[np.float64]:
@@ -79,7 +97,10 @@ def _framing(side_px: int, settings: CameraSettings) -> npt.NDArray[np.float64]:
     c, s = cos(settings.turn_rad) * step, sin(settings.turn_rad) * step
     centre, middle = (side_px - 1) / 2, (PATCH_PX - 1) / 2
     dx, dy = middle + settings.shift_px[0], middle + settings.shift_px[1]
-    return np.array([[c, -s, centre - c * dx + s * dy], [s, c, centre - s * dx - c * dy]])
+    turn = np.array([[c, -s], [s, c]])
+    if settings.lens is not None:
+        turn = turn @ np.linalg.inv(settings.lens.stretch())
+    return np.column_stack([turn, centre - turn @ (dx, dy)])
 
 
 def _warp(
@@ -198,7 +219,8 @@ def _blur_moving_finger(image: FloatImage, segment: npt.NDArray[np.uint8], path_
 def _optics(image: FloatImage, settings: CameraSettings) -> FloatImage:
     if hypot(*settings.camera_motion_px) >= 1.0:
         image = np.asarray(cv2.filter2D(image, -1, _motion_kernel(settings.camera_motion_px), borderType=cv2.BORDER_REPLICATE), np.float32)
-    return np.asarray(cv2.GaussianBlur(image, (0, 0), settings.optical_blur_px), np.float32)
+    image = np.asarray(cv2.GaussianBlur(image, (0, 0), settings.optical_blur_px), np.float32)
+    return image if settings.lens is None else settings.lens.split_colours(image * settings.lens.fall_off())
 
 
 def _expose(image: FloatImage, segment: npt.NDArray[np.uint8], settings: CameraSettings) -> FloatImage:
@@ -206,26 +228,3 @@ def _expose(image: FloatImage, segment: npt.NDArray[np.uint8], settings: CameraS
     skin = image[segment != BACKGROUND] if (segment != BACKGROUND).any() else image.reshape(-1, 3)
     gain = settings.skin_level / max(float(skin.mean(0) @ LUMA), 1e-4)
     return np.asarray(image * (gain * settings.white_balance), np.float32)
-
-
-def _develop(image: FloatImage, settings: CameraSettings, rng: np.random.Generator) -> npt.NDArray[np.uint8]:
-    """Sensor noise at the camera's own resolution, tone curve, saturation, sharpening, JPEG, then the patch's resolution."""
-    native = min(settings.native_px, PATCH_PX)
-    if native < PATCH_PX:
-        image = np.asarray(cv2.resize(image, (native, native), interpolation=cv2.INTER_AREA), np.float32)
-    grain = cv2.GaussianBlur(rng.standard_normal(image.shape, np.float32), (0, 0), settings.noise_grain_px)
-    shot = np.sqrt(np.maximum(image, 0.0) * (settings.noise * 0.06) + settings.noise**2)
-    image = np.maximum(image + grain * shot, 0.0)
-    image = image * (1 + settings.shoulder) / (1 + settings.shoulder * image)
-    tone = cv2.pow(np.minimum(image, 1.0), 1 / settings.gamma)
-    tone = 0.5 + (tone - 0.5) * settings.contrast + settings.haze
-    luma = (tone @ LUMA)[..., None]
-    tone = luma + (tone - luma) * settings.saturation
-    if settings.sharpening > 0:
-        tone = tone + settings.sharpening * (tone - cv2.GaussianBlur(tone, (0, 0), 1.0))
-    codes = np.clip(tone * 255 + 0.5, 0, 255).astype(np.uint8)
-    coded = cv2.imencode(".jpg", codes[..., ::-1], [cv2.IMWRITE_JPEG_QUALITY, settings.jpeg_quality])[1]
-    decoded = np.asarray(cv2.imdecode(coded, cv2.IMREAD_COLOR), np.uint8)
-    if native < PATCH_PX:
-        decoded = np.asarray(cv2.resize(decoded, (PATCH_PX, PATCH_PX), interpolation=cv2.INTER_LINEAR), np.uint8)
-    return np.ascontiguousarray(decoded[..., ::-1], np.uint8)

@@ -9,6 +9,8 @@ from math import exp, log, pi, radians
 import numpy as np
 import numpy.typing as npt
 
+from egotouch_sdk.synthetic.lens import Lens
+
 
 class LightMix(StrEnum):
     """How the separately rendered lights are mixed."""
@@ -19,8 +21,8 @@ class LightMix(StrEnum):
     DIM = "dim"
 
 
-#: Share of each mix (our choice: mostly indoor soft light, as the recipe of our rendering study).
-MIX_SHARES = {LightMix.SOFT: 0.45, LightMix.MIXED: 0.30, LightMix.KEY: 0.12, LightMix.DIM: 0.13}
+#: Share of each mix (our choice: hard light, that of sun and lamps, as often as soft light, since it is the harder to judge).
+MIX_SHARES = {LightMix.SOFT: 0.32, LightMix.MIXED: 0.27, LightMix.KEY: 0.31, LightMix.DIM: 0.10}
 #: Weight ranges of (key, window, ambient) for each mix.
 MIX_WEIGHTS: dict[LightMix, tuple[tuple[float, float], tuple[float, float], tuple[float, float]]] = {
     LightMix.SOFT: ((0.0, 0.05), (0.0, 0.4), (0.6, 1.0)),
@@ -58,6 +60,7 @@ class CameraSettings:
     background, host and touching hand. `native_px` is the number of camera pixels across the patch.
     `finger_motion_px` and `camera_motion_px` are (x, y) paths during the exposure. `skin_level` is the linear level that
     exposure gives the mean of the skin. `distractor` is None or (row, side, width, height, level) beside the finger.
+    `lens` is None for a picture without a lens's faults, `crf` None for JPEG, else the rate factor of H.264 in its place.
     """
 
     occlusion_power: float
@@ -88,6 +91,8 @@ class CameraSettings:
     sharpening: float
     jpeg_quality: int
     distractor: tuple[float, float, float, float, float] | None
+    lens: Lens | None = None
+    crf: int | None = None
 
 
 def draw_settings(rng: np.random.Generator) -> CameraSettings:

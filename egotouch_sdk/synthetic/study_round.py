@@ -12,7 +12,7 @@ from egotouch_sdk.patches import PATCH_PX_PER_MM
 from egotouch_sdk.study_data import RoundMeta, StudyRound
 from egotouch_sdk.surface import Surface
 from egotouch_sdk.synthetic.backdrop import draw_backdrop
-from egotouch_sdk.synthetic.camera import LUMA, photograph
+from egotouch_sdk.synthetic.camera import photograph
 from egotouch_sdk.synthetic.camera_settings import MIX_WEIGHTS, CameraSettings, LightMix, draw_settings, in_good_order
 from egotouch_sdk.synthetic.finger_motion import FingerMotion
 from egotouch_sdk.synthetic.hand_rig import HandRig
@@ -23,6 +23,7 @@ from egotouch_sdk.synthetic.moving_scene import BLANCH_S, Footage, MovingScene, 
 from egotouch_sdk.synthetic.outfit import draw_outfit, dress_both
 from egotouch_sdk.synthetic.participants import PARTICIPANTS, study_skin
 from egotouch_sdk.synthetic.plan import ScenePlan, draw_plan
+from egotouch_sdk.synthetic.sensor import LUMA
 from egotouch_sdk.synthetic.skin import SkinIdentity
 from egotouch_sdk.synthetic.stage import PATCH_DETAIL, ImpossibleSceneError, Stage, draw_possible
 from egotouch_sdk.synthetic.study_plan import LIGHTS, STUDY_CAMERAS, RoundPlan

@@ -15,7 +15,7 @@ import numpy.typing as npt
 from egotouch_sdk.errors import SourceError
 from egotouch_sdk.patches import HOST_UNKNOWN, PATCH_PX_PER_MM
 from egotouch_sdk.synthetic.air import in_the_air
-from egotouch_sdk.synthetic.camera import LightLayers, photograph
+from egotouch_sdk.synthetic.camera import LightLayers, photograph_film
 from egotouch_sdk.synthetic.camera_settings import MAX_SHIFT_PX, MAX_TURN_RAD, SCALE_RANGE, CameraSettings
 from egotouch_sdk.synthetic.head_motion import HeadMotion
 from egotouch_sdk.synthetic.study_round import MAX_CAMERA_PX, MAX_FINGER_PX, bounded
@@ -95,7 +95,7 @@ def view_film(
     Camera, light and skin tone are drawn once, the tracker's error and the noise for each frame; smears follow the true motion.
     """
     settings = [_settings_at(*frame) for frame in _frames(film, draw_camera(rng, ordinary), rng)]
-    images = np.stack([photograph(film.layers[shown], each, rng) for shown, each in zip(film.shown, settings, strict=True)])
+    images = np.stack(photograph_film([film.layers[shown] for shown in film.shown], settings, rng))
     polar = np.array([(label.r_palms, label.theta_rad) for label in film.labels])
     polar = polar * [np.exp(rng.normal(0, POLAR_JITTER[0])), 1.0] + [0.0, rng.normal(0, POLAR_JITTER[1])]
     if rng.random() < FLIP_SHARE:

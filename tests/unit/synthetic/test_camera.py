@@ -1,12 +1,14 @@
 from dataclasses import replace
+from math import radians
 
 import cv2
 import numpy as np
 import pytest
 
 from egotouch_sdk.errors import FrameError
-from egotouch_sdk.synthetic.camera import LightLayers, photograph
+from egotouch_sdk.synthetic.camera import LightLayers, photograph, photograph_film
 from egotouch_sdk.synthetic.camera_settings import CameraSettings, draw_settings
+from egotouch_sdk.synthetic.lens import Lens
 
 SIDE = 144
 
@@ -175,3 +177,19 @@ def test_a_fold_darkens_the_host_under_its_line_and_never_the_finger() -> None:
     assert after[80, 5:15].mean() < 0.85 * before[80, 5:15].mean()
     assert after[60, 5:15].mean() == pytest.approx(before[60, 5:15].mean(), rel=0.02)
     assert after[80, 45:55].mean() == pytest.approx(before[80, 45:55].mean(), rel=0.03)
+
+
+def test_a_lens_stretches_darkens_and_splits_what_the_plain_camera_shows() -> None:
+    straight = shoot(plain())
+    wide = shoot(replace(plain(), lens=Lens(radians(38), 0.0, barrel=0.0, shading=0.8, fringe_px=1.0)))
+    assert (wide[90, :, 1] < 130).sum() >= (straight[90, :, 1] < 130).sum()
+    assert np.abs(wide - straight).mean() > 2
+    assert wide[:, 5:15].mean() - wide[:, 85:95].mean() > straight[:, 5:15].mean() - straight[:, 85:95].mean() + 5
+
+
+def test_a_film_as_video_differs_from_the_same_film_as_stills_and_keeps_its_order() -> None:
+    settings = [replace(plain(), shift_px=(shift, 0.0)) for shift in (-8.0, 0.0, 8.0)]
+    stills = photograph_film([layers()] * 3, settings, np.random.default_rng(0))
+    video = photograph_film([layers()] * 3, [replace(each, crf=28) for each in settings], np.random.default_rng(0))
+    errors = [[np.abs(a.astype(float) - b).mean() for b in video] for a in stills]
+    assert np.argmin(errors, axis=1).tolist() == [0, 1, 2] and min(errors[0]) > 0
