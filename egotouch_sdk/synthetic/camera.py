@@ -74,7 +74,7 @@ def photograph_film(
 
 def _to_sensor(layers: LightLayers, settings: CameraSettings) -> FloatImage:
     """Linear light on the sensor, float (100, 100, 3), exposed."""
-    to_layers = _framing(layers.segment.shape[0], settings)
+    to_layers = framing(layers.segment.shape[0], settings)
     light = _warp(np.asarray(layers.light, np.float32), to_layers)
     albedo = _warp(SRGB_TO_LINEAR[layers.albedo], to_layers)
     segment = np.asarray(_warp(layers.segment, to_layers, cv2.INTER_NEAREST), np.uint8)
@@ -91,8 +91,8 @@ def _to_sensor(layers: LightLayers, settings: CameraSettings) -> FloatImage:
     return _expose(image, segment, settings)
 
 
-def _framing(side_px: int, settings: CameraSettings) -> npt.NDArray[np.float64]:
-    """Affine map (2, 3) from patch pixels to layer pixels with the tracker's shift, turn and scale error."""
+def framing(side_px: int, settings: CameraSettings) -> npt.NDArray[np.float64]:
+    """Affine map (2, 3) from patch pixels to layer pixels: that of `cut_patch`, around where the tracker believes the tip to be."""
     step = 1 / settings.scale
     c, s = cos(settings.turn_rad) * step, sin(settings.turn_rad) * step
     centre, middle = (side_px - 1) / 2, (PATCH_PX - 1) / 2

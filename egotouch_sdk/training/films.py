@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass, replace
 from math import pi
 from pathlib import Path
 from typing import Any
-from zipfile import BadZipFile
 
 import numpy as np
 import numpy.typing as npt
@@ -21,7 +19,7 @@ from egotouch_sdk.synthetic.head_motion import HeadMotion
 from egotouch_sdk.synthetic.study_round import MAX_CAMERA_PX, MAX_FINGER_PX, bounded
 from egotouch_sdk.synthetic.tracker_error import draw_tracker_error
 from egotouch_sdk.training.augment import FLIP_SHARE, HOST_UNKNOWN_SHARE, POLAR_JITTER, draw_camera
-from egotouch_sdk.training.shards import HOVER_MAX_MM, PatchLabel
+from egotouch_sdk.training.shards import HOVER_MAX_MM, PatchLabel, read_pictures
 
 #: Exposure times in seconds, each factor equally likely: from sun to a dim room (our choice).
 _EXPOSURE_S = (1 / 1000, 1 / 35)
@@ -57,14 +55,11 @@ class RenderedFilm:
 
 
 def read_films(path: Path) -> list[RenderedFilm]:
-    """All films of one `.npz` shard; raises `SourceError` when it is not a readable shard."""
+    """All films of one `.npz` shard; raises `SourceError` when it is not a readable shard of films."""
+    pictures, metas = read_pictures(path)
     try:
-        with path.open("rb") as file, np.load(file) as arrays:
-            light, albedo, segment, depth_mm = (arrays[name] for name in ("light", "albedo", "segment", "depth_mm"))
-            metas = json.loads(str(arrays["meta"]))
-            pictures = [LightLayers(*parts) for parts in zip(light, albedo, segment, depth_mm, strict=True)]
-            return [_film(pictures, meta) for meta in metas]
-    except (OSError, ValueError, KeyError, EOFError, BadZipFile) as problem:
+        return [_film(pictures, meta) for meta in metas]
+    except (KeyError, ValueError) as problem:
         raise SourceError(f"{path.name} is not a readable shard of films ({problem})", hint="Delete it and render it again") from problem
 
 

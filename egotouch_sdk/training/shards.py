@@ -12,7 +12,7 @@ from zipfile import BadZipFile
 import numpy as np
 import numpy.typing as npt
 
-from egotouch_sdk.errors import SourceError
+from egotouch_sdk.errors import FrameError, SourceError
 from egotouch_sdk.observation import FORCE_MAX_N
 from egotouch_sdk.synthetic.camera import LightLayers
 
@@ -74,20 +74,25 @@ class RenderedPatch:
         return (self.label,)
 
 
-def read_shard(path: Path) -> list[RenderedPatch]:
-    """All patches of one `.npz` shard; raises `SourceError` when it is not a readable shard."""
+def read_pictures(path: Path) -> tuple[list[LightLayers], list[dict[str, Any]]]:
+    """The pictures of a `.npz` shard and its entries; raises `SourceError` when it is not a readable shard."""
     try:
         with path.open("rb") as file, np.load(file) as arrays:
-            light, albedo, segment, depth_mm = (arrays[name] for name in ("light", "albedo", "segment", "depth_mm"))
-            metas = json.loads(str(arrays["meta"]))
-    except (OSError, ValueError, KeyError, EOFError, BadZipFile) as problem:
+            columns = [arrays[name] for name in ("light", "albedo", "segment", "depth_mm")]
+            return [LightLayers(*parts) for parts in zip(*columns, strict=True)], json.loads(str(arrays["meta"]))
+    except (OSError, ValueError, KeyError, EOFError, BadZipFile, FrameError) as problem:
         raise SourceError(f"{path.name} is not a readable shard ({problem})", hint="Delete it and render it again") from problem
-    if len({len(light), len(albedo), len(segment), len(depth_mm), len(metas)}) != 1:
-        raise SourceError(f"{path.name} holds arrays of different lengths", hint="Delete it and render it again")
+
+
+def read_shard(path: Path) -> list[RenderedPatch]:
+    """All patches of one shard; raises `SourceError` when it is not a readable shard."""
+    pictures, metas = read_pictures(path)
+    if len(pictures) != len(metas):
+        raise SourceError(f"{path.name} holds {len(pictures)} pictures and {len(metas)} labels", hint="Delete it and render it again")
     return [
-        RenderedPatch(LightLayers(light[i], albedo[i], segment[i], depth_mm[i]), PatchLabel.from_meta(meta))
-        for i, meta in enumerate(metas)
-        if np.isfinite(light[i]).all()
+        RenderedPatch(layers, PatchLabel.from_meta(meta))
+        for layers, meta in zip(pictures, metas, strict=True)
+        if np.isfinite(layers.light).all()
     ]
 
 

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from egotouch_sdk.errors import FrameError
-from egotouch_sdk.synthetic.camera import LightLayers, photograph, photograph_film
+from egotouch_sdk.patches import PATCH_PX_PER_MM, cut_patch
+from egotouch_sdk.synthetic.camera import LightLayers, framing, photograph, photograph_film
 from egotouch_sdk.synthetic.camera_settings import CameraSettings, draw_settings
 from egotouch_sdk.synthetic.lens import Lens
 
@@ -193,3 +194,16 @@ def test_a_film_as_video_differs_from_the_same_film_as_stills_and_keeps_its_orde
     video = photograph_film([layers()] * 3, [replace(each, crf=28) for each in settings], np.random.default_rng(0))
     errors = [[np.abs(a.astype(float) - b).mean() for b in video] for a in stills]
     assert np.argmin(errors, axis=1).tolist() == [0, 1, 2] and min(errors[0]) > 0
+
+
+@pytest.mark.parametrize(("shift", "turn_rad", "scale"), [((0.0, 0.0), 0.0, 1.0), ((7.0, -4.0), 0.2, 1.25), ((-10.0, 5.0), -0.15, 1.0)])
+def test_patches_are_framed_as_the_pipeline_cuts_them_around_a_missed_tip(
+    shift: tuple[float, float], turn_rad: float, scale: float
+) -> None:
+    picture = cv2.GaussianBlur(np.random.default_rng(0).integers(0, 255, (SIDE, SIDE, 3), dtype=np.uint8), (0, 0), 3)
+    turn = np.array([[np.cos(turn_rad), -np.sin(turn_rad)], [np.sin(turn_rad), np.cos(turn_rad)]])
+    believed_px = (SIDE - 1) / 2 - turn @ shift / scale
+    cut = cut_patch(picture, believed_px, turn @ (0.0, -1.0), PATCH_PX_PER_MM / scale, False)
+    to_picture = framing(SIDE, replace(plain(), shift_px=shift, turn_rad=turn_rad, scale=scale))
+    framed = cv2.warpAffine(picture[..., ::-1], to_picture, (100, 100), flags=cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP)
+    assert np.abs(cut.astype(int) - framed)[5:-5, 5:-5].max() <= 1
