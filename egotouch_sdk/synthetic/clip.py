@@ -25,7 +25,7 @@ from egotouch_sdk.synthetic.take import HEIGHT_PX, WIDTH_PX, Take
 _SKIN_LEVEL = 0.2
 _CRF = "20"
 #: Depth and width (at 2.5 px/mm) of the groove along a pressed finger: the middle of the training camera's ranges.
-_GROOVE_DEPTH, _GROOVE_WIDTH_PX = 0.5, 1.8
+_GROOVE_DEPTH, _GROOVE_WIDTH_PX = 0.65, 1.55
 
 
 @functools.lru_cache(maxsize=1)

@@ -37,11 +37,13 @@ class Sample(NamedTuple):
 class PatchDataset(Dataset[Sample]):
     """Item (index, seed) is patch or film `index` seen by the random camera of `seed`; `air_share` of the hovers lose their host.
 
-    `ordinary` cameras are in good order; training's vary more widely than cameras do.
+    `ordinary` cameras are in good order; training's vary more widely than cameras do. Of a film `frames` are shown, None for all.
     """
 
-    def __init__(self, rendered: Sequence[Rendered], air_share: float = 0.0, ordinary: bool = False) -> None:
-        self.rendered, self.air_share, self.ordinary = rendered, air_share, ordinary
+    def __init__(
+        self, rendered: Sequence[Rendered], air_share: float = 0.0, ordinary: bool = False, frames: int | None = None
+    ) -> None:
+        self.rendered, self.air_share, self.ordinary, self.frames = rendered, air_share, ordinary, frames
 
     def __len__(self) -> int:
         return len(self.rendered)
@@ -53,18 +55,22 @@ class PatchDataset(Dataset[Sample]):
         in_air = not any(label.touch for label in rendered.labels) and rng.random() < self.air_share
         if isinstance(rendered, RenderedFilm):
             rendered = before_clutter(rendered, rng) if in_air else rendered
-            images, polar = view_film(rendered, rng, self.ordinary)
+            count = len(rendered.labels)
+            chosen = sorted(rng.permutation(count)[: self.frames].tolist()) if self.frames else range(count)
+            images, polar = view_film(rendered, rng, self.ordinary, chosen)
+            labels = tuple(rendered.labels[k] for k in chosen)
         else:
             if in_air:
                 rendered = RenderedPatch(in_the_air(rendered.layers, rng), replace(rendered.label, hover_mm=HOVER_MAX_MM))
             image, place = view(rendered, rng, self.ordinary)
+            labels = rendered.labels
             images, polar = image[None], np.array([place], np.float32)
         return Sample(
             patch=torch.from_numpy(normalise(images)),
             polar=torch.from_numpy(polar),
-            touch=torch.tensor([float(label.touch) for label in rendered.labels]),
-            force_n=torch.tensor([label.force_n for label in rendered.labels]),
-            hover_mm=torch.tensor([label.hover_mm for label in rendered.labels]),
+            touch=torch.tensor([float(label.touch) for label in labels]),
+            force_n=torch.tensor([label.force_n for label in labels]),
+            hover_mm=torch.tensor([label.hover_mm for label in labels]),
         )
 
 

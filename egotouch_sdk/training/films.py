@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from math import pi
 from pathlib import Path
@@ -82,16 +83,17 @@ def before_clutter(film: RenderedFilm, rng: np.random.Generator) -> RenderedFilm
 
 
 def view_film(
-    film: RenderedFilm, rng: np.random.Generator, ordinary: bool = False
+    film: RenderedFilm, rng: np.random.Generator, ordinary: bool = False, chosen: Sequence[int] | None = None
 ) -> tuple[npt.NDArray[np.uint8], npt.NDArray[np.float32]]:
-    """The film through one random camera: patches uint8 (T, 100, 100, 3) RGB and (r_palms, theta_rad) float32 (T, 2).
+    """Frames of the film through one random camera: patches uint8 (T, 100, 100, 3) RGB and (r_palms, theta_rad) float32 (T, 2).
 
-    `ordinary` as in `draw_camera`.
+    `ordinary` as in `draw_camera`; `chosen` are the numbers of the frames, in order, None for all.
     Camera, light and skin tone are drawn once, the tracker's error and the noise for each frame; smears follow the true motion.
     """
-    settings = [_settings_at(*frame) for frame in _frames(film, draw_camera(rng, ordinary), rng)]
-    images = np.stack(photograph_film([film.layers[shown] for shown in film.shown], settings, rng))
-    polar = np.array([(label.r_palms, label.theta_rad) for label in film.labels])
+    frames = _frames(film, draw_camera(rng, ordinary), rng)
+    chosen = range(len(frames)) if chosen is None else chosen
+    images = np.stack(photograph_film([film.layers[film.shown[k]] for k in chosen], [_settings_at(*frames[k]) for k in chosen], rng))
+    polar = np.array([(film.labels[k].r_palms, film.labels[k].theta_rad) for k in chosen])
     polar = polar * [np.exp(rng.normal(0, POLAR_JITTER[0])), 1.0] + [0.0, rng.normal(0, POLAR_JITTER[1])]
     if rng.random() < FLIP_SHARE:
         images, polar = np.ascontiguousarray(images[:, :, ::-1]), polar * [1.0, -1.0]

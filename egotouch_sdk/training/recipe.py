@@ -21,7 +21,8 @@ class Recipe:
     `label_smoothing` moves targets towards one half. `hover_weight` weighs an auxiliary hover-height output, dropped on export,
     `sigma_weight` the standard error of the force, which learns from the network's errors and does not move them.
     `remembers` adds a memory of a finger's earlier frames, trained on films; `still_weight` then weighs the loss of each frame judged
-    alone, as a finger's first frame is.
+    alone, as a finger's first frame is. Without a memory each pass takes `frames_per_film` frames of a film at random: neighbours teach
+    nearly the same.
     `held_out_share` of the patches, whole participants, choose the threshold and never train.
     """
 
@@ -40,14 +41,15 @@ class Recipe:
     average_decay: float = 0.995
     remembers: bool = False
     still_weight: float = 0.5
+    frames_per_film: int = 4
     held_out_share: float = 0.12
     held_out_views: int = 2
     seed: int = 1
 
     def __post_init__(self) -> None:
-        if self.epochs < 1 or self.batch < 2 or self.held_out_views < 1:
-            counts = f"epochs={self.epochs}, batch={self.batch}, held_out_views={self.held_out_views}"
-            raise ConfigError(f"recipe has {counts}; need 1, 2, 1 or more")
+        for name, least in (("epochs", 1), ("batch", 2), ("held_out_views", 1), ("frames_per_film", 1)):
+            if getattr(self, name) < least:
+                raise ConfigError(f"recipe has {name}={getattr(self, name)}, need {least} or more")
         if not 32 <= self.picture_px <= PATCH_PX:
             raise ConfigError(f"recipe has picture_px={self.picture_px}, need 32..{PATCH_PX}")
         weights = (self.weight_decay, self.force_weight, self.hover_weight, self.sigma_weight, self.still_weight)

@@ -112,7 +112,7 @@ def fit(module: TouchModule, train_patches: list[Rendered], validation: Sample, 
     recipe = module.recipe
     order = SeededOrder(len(train_patches), recipe.seed, finger_weights([patch.label for patch in train_patches]))
     batches = DataLoader(
-        PatchDataset(train_patches, AIR_SHARE),
+        PatchDataset(train_patches, AIR_SHARE, frames=None if recipe.remembers else recipe.frames_per_film),
         recipe.batch,
         sampler=order,
         collate_fn=collate,

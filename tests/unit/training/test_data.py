@@ -169,6 +169,18 @@ def test_one_camera_films_all_frames_and_a_fast_finger_smears(film_folder: Path)
     assert max(smears) > 1
 
 
+def test_some_frames_of_a_film_are_those_that_all_frames_show(film_folder: Path) -> None:
+    film = read_folder(film_folder)[0]
+    heights = np.array([label.hover_mm for label in film.labels])
+    seen = [PatchDataset([film], frames=2)[0, seed] for seed in range(20)]
+    assert all(sample.patch.shape[0] == 2 and (np.diff(sample.hover_mm) <= 0).all() for sample in seen)
+    assert {float(height) for sample in seen for height in sample.hover_mm} == set(heights.tolist())
+    _, every = view_film(film, np.random.default_rng(4))
+    _, two = view_film(film, np.random.default_rng(4), chosen=(1, 3))
+    assert two.shape == (2, 2) and (every == 0).all() == (two == 0).all()
+    assert PatchDataset([film])[0, 1].patch.shape[0] == PatchDataset([film], frames=9)[0, 1].patch.shape[0] == 4
+
+
 def test_a_film_in_the_air_has_clutter_for_a_host(film_folder: Path) -> None:
     film = read_folder(film_folder)[0]
     hover = replace(film, labels=(film.labels[0],) * 4)
