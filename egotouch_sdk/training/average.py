@@ -10,10 +10,11 @@ import torch
 from torch import Tensor
 
 from egotouch_sdk.errors import ConfigError
+from egotouch_sdk.training.checkpoints import averaged_state, earlier_stage
 from egotouch_sdk.training.export import ModelFacts, write_model
+from egotouch_sdk.training.finish import DATA, calibrate_and_score, census
 from egotouch_sdk.training.folder import Rendered, read_folder
 from egotouch_sdk.training.network import TouchNetwork
-from egotouch_sdk.training.run import DATA, averaged_state, calibrate_and_score, census, earlier_stage
 
 VIEWS = 2
 THRESHOLD_FROM = "rendered people who trained no run; 2 % of their hovers of 3 mm and more, seen by ordinary cameras, reach it"

@@ -12,9 +12,10 @@ from typing import Any
 
 from egotouch_sdk.errors import ConfigError
 from egotouch_sdk.jobs import Task
+from egotouch_sdk.training.checkpoints import LAST_CHECKPOINT
 from egotouch_sdk.training.folder import read_folder
 from egotouch_sdk.training.recipe import Recipe
-from egotouch_sdk.training.run import LAST_CHECKPOINT, Machine, train
+from egotouch_sdk.training.run import Machine, train
 from egotouch_sdk.training.score import score_model
 
 #: What was asked of the run, its output, and its scores on participants that were left out.

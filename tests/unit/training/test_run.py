@@ -10,9 +10,10 @@ pytest.importorskip("onnx")
 from egotouch_sdk.errors import ConfigError, SourceError  # noqa: E402
 from egotouch_sdk.touch import TouchModel  # noqa: E402
 from egotouch_sdk.training.average import average, mean_state  # noqa: E402
+from egotouch_sdk.training.checkpoints import averaged_state  # noqa: E402
 from egotouch_sdk.training.folder import read_folder  # noqa: E402
 from egotouch_sdk.training.recipe import Recipe  # noqa: E402
-from egotouch_sdk.training.run import Machine, Split, averaged_state, train  # noqa: E402
+from egotouch_sdk.training.run import Machine, Split, train  # noqa: E402
 from egotouch_sdk.training.score import score_model  # noqa: E402
 
 pytestmark = [
