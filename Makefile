@@ -64,20 +64,31 @@ schema: ## lint the schema and compare it with the last release (needs npm)
 bench: $(VENV)/.run ## milliseconds per stage and frames per second on this machine
 	$(BIN)/egotouch bench $(ARGS)
 
-# As the shipped model was made: two stages on single patches and one on films, each of other scenes; then a mean of the last two,
-# calibrated on people who are in none. Pictures differ by their random numbers, so this gives its like, not its bits. Stop and start it as you like.
-TRAIN := OPENBLAS_NUM_THREADS=1 $(BIN)/egotouch train --workers 8
-model: $(BIN)/python ## render and train the like of the shipped touch model (a GPU: 15 minutes; two cores: more than a day)
+# As the shipped model was made: two stages on single patches and two on films, each with other people, light and poses; then a mean of
+# the last two, calibrated on people who are in none. Pictures differ by their random numbers, so this gives its like, not its bits.
+# Stop and start it as you like. `make model SHRINK=100` runs all of it with a hundredth of the scenes, to try it out.
+SHRINK ?= 1
+MODEL  := out/model$(if $(filter-out 1,$(SHRINK)),-$(SHRINK))
+scenes = $(shell echo $$(($(1) / $(SHRINK) > 12 ? $(1) / $(SHRINK) : 12)))
+people = $(shell echo $$(($(1) / $(SHRINK) > 3 ? $(1) / $(SHRINK) : 3)))
+TRAIN  := OPENBLAS_NUM_THREADS=1 $(BIN)/egotouch train --workers 8
+model: $(BIN)/python ## render and train the like of the shipped touch model (a GPU: half an hour; two cores: two days)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[synthetic,train]' $(TORCH)
-	$(BIN)/egotouch synth patches --out data/model/a --series 1192 --participants 48 --seed 7
-	$(BIN)/egotouch synth patches --out data/model/b --series 640 --participants 16 --first-participant 100 --seed 11
-	$(BIN)/egotouch synth films --out data/model/c --scenes 528 --participants 16 --seed 41
-	$(BIN)/egotouch synth films --out data/model/d --scenes 120 --participants 10 --first-participant 200 --seed 51
-	test -f out/model/a/touch.onnx || $(TRAIN) --recipe stills --data data/model/a --out out/model/a
-	test -f out/model/b/touch.onnx || $(TRAIN) --recipe stills --data data/model/b --out out/model/b \
-		--start-from out/model/a/last.ckpt --epochs 12 --learning-rate 0.001
-	test -f out/model/c/touch.onnx || $(TRAIN) --recipe films --data data/model/c --out out/model/c --start-from out/model/b/last.ckpt
-	$(BIN)/egotouch train --average out/model/b/last.ckpt out/model/c/last.ckpt --data data/model/d --out out/model/mean
+	$(BIN)/egotouch synth patches --out $(MODEL)/data/a --series $(call scenes,1192) --participants $(call people,48) --seed 7
+	$(BIN)/egotouch synth patches --out $(MODEL)/data/b --series $(call scenes,640) --participants $(call people,16) \
+		--first-participant 100 --seed 11
+	$(BIN)/egotouch synth films --out $(MODEL)/data/c --scenes $(call scenes,528) --participants $(call people,16) --seed 41
+	$(BIN)/egotouch synth films --out $(MODEL)/data/d --scenes $(call scenes,968) --participants $(call people,72) \
+		--first-participant 16 --seed 61
+	$(BIN)/egotouch synth films --out $(MODEL)/data/e --scenes $(call scenes,120) --participants $(call people,10) \
+		--first-participant 200 --seed 51
+	test -f $(MODEL)/a/touch.onnx || $(TRAIN) --recipe stills --data $(MODEL)/data/a --out $(MODEL)/a
+	test -f $(MODEL)/b/touch.onnx || $(TRAIN) --recipe stills --data $(MODEL)/data/b --out $(MODEL)/b \
+		--start-from $(MODEL)/a/last.ckpt --epochs 12 --learning-rate 0.001
+	test -f $(MODEL)/c/touch.onnx || $(TRAIN) --recipe films --data $(MODEL)/data/c --out $(MODEL)/c --start-from $(MODEL)/b/last.ckpt
+	test -f $(MODEL)/d/touch.onnx || $(TRAIN) --recipe films --data $(MODEL)/data/d --out $(MODEL)/d --start-from $(MODEL)/c/last.ckpt \
+		--learning-rate 0.0008
+	$(BIN)/egotouch train --average $(MODEL)/c/last.ckpt $(MODEL)/d/last.ckpt --data $(MODEL)/data/e --out $(MODEL)/mean
 
 clean: ## remove the virtual environment, caches and the converted hand models
 	rm -rf $(VENV) .mypy_cache .pytest_cache .ruff_cache .hypothesis build dist $(WEB)/node_modules $(WEB)/dist
