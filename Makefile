@@ -88,7 +88,8 @@ model: $(BIN)/python ## render and train the like of the shipped touch model (a 
 	test -f $(MODEL)/c/touch.onnx || $(TRAIN) --recipe films --data $(MODEL)/data/c --out $(MODEL)/c --start-from $(MODEL)/b/last.ckpt
 	test -f $(MODEL)/d/touch.onnx || $(TRAIN) --recipe films --data $(MODEL)/data/d --out $(MODEL)/d --start-from $(MODEL)/c/last.ckpt \
 		--learning-rate 0.0008
-	$(BIN)/egotouch train --average $(MODEL)/c/last.ckpt $(MODEL)/d/last.ckpt --data $(MODEL)/data/e --out $(MODEL)/mean
+	$(BIN)/egotouch train --average $(MODEL)/c/last.ckpt $(MODEL)/d/last.ckpt $(MODEL)/d/last.ckpt --data $(MODEL)/data/e \
+		--fit-force $(MODEL)/data/d --out $(MODEL)/mean
 
 clean: ## remove the virtual environment, caches and the converted hand models
 	rm -rf $(VENV) .mypy_cache .pytest_cache .ruff_cache .hypothesis build dist $(WEB)/node_modules $(WEB)/dist

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -14,22 +15,30 @@ from egotouch_sdk.training.checkpoints import averaged_state, earlier_stage
 from egotouch_sdk.training.export import ModelFacts, write_model
 from egotouch_sdk.training.finish import DATA, calibrate_and_score, census
 from egotouch_sdk.training.folder import Rendered, read_folder
+from egotouch_sdk.training.force_fit import fit_force
 from egotouch_sdk.training.network import TouchNetwork
 
 VIEWS = 2
 THRESHOLD_FROM = "rendered people who trained no run; 2 % of their hovers of 3 mm and more, seen by ordinary cameras, reach it"
 
 
-def average(checkpoints: Sequence[Path], data: Path, out: Path, seed: int) -> Path:
+def average(checkpoints: Sequence[Path], data: Path, out: Path, seed: int, force_data: Path | None = None) -> Path:
     """Average the shipped weights of runs that share an ancestor, calibrate them on all of `data`, export to `out`.
 
+    A run named twice counts twice. With `force_data`, renders that trained the runs, the force is fitted again as `fit_force` does.
     Returns the model file's path. Nobody in `data` may have trained one of the runs: this is not checked, since checkpoints do not
     name people. Raises `ConfigError` for a file that is no checkpoint of this network, `SourceError` for unusable data.
     """
     mean = mean_state([averaged_state(path) for path in checkpoints])
     network = TouchNetwork(remembers=any(name.startswith("memory.") for name in mean))
     network.load_state_dict(mean)
-    training = {"averaged_runs": len(checkpoints), **{f"run_{i + 1}": earlier_stage(path) for i, path in enumerate(checkpoints)}}
+    weights = Counter(checkpoints)
+    training: dict[str, Any] = {"averaged_runs": len(weights), "weights": list(weights.values())}
+    training |= {f"run_{number}": earlier_stage(path) for number, path in enumerate(weights, 1)}
+    if force_data is not None:
+        trained = read_folder(force_data)
+        fit_force(network, trained, seed)
+        training["force_fitted_on"] = census(trained)
     return export_calibrated(network.use_fast_layout(), read_folder(data), out, training, seed)
 
 

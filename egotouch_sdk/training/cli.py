@@ -21,7 +21,7 @@ EXAMPLES = """\
   egotouch train --data data/films --out out/memory --start-from out/touch/last.ckpt --recipe films
   egotouch train --data data/patches --out out/paper --recipe paper
   egotouch train --data data/patches --out out/touch --trunk model.safetensors     ImageNet weights that you have fetched
-  egotouch train --data data/others --out out/mean --average out/a/last.ckpt out/b/last.ckpt
+  egotouch train --data data/others --out out/mean --average out/a/last.ckpt out/b/last.ckpt --fit-force data/patches
   egotouch train --data data/study --out out/folds --folds 5            leave participants out, 5 models
   egotouch train --data data/study --out out/folds --folds 15 --ray auto --gpus 1       on a Ray cluster
   egotouch train --data data/patches --out out/trials --trials trials.toml --jobs 2     compare recipes
@@ -62,7 +62,14 @@ def add_parser(subparsers: Subparsers) -> None:
         help="start the trunk from a file of ImageNet weights: timm's fastvit_t8.apple_in1k or the authors'",
     )
     begin.add_argument(
-        "--average", type=Path, nargs="+", metavar="CKPT", help="no training: the mean of these runs' weights, calibrated on all of --data"
+        "--average",
+        type=Path,
+        nargs="+",
+        metavar="CKPT",
+        help="no training: the mean of these runs' weights, calibrated on all of --data; one named twice counts twice",
+    )
+    parser.add_argument(
+        "--fit-force", type=Path, metavar="DIR", help="with --average: fit the force again on these renders, by absolute error"
     )
     begin.add_argument("--folds", type=positive_int, metavar="K", help="K runs that leave out groups of participants; writes folds.json")
     begin.add_argument("--trials", type=Path, metavar="FILE.toml", help="one run for each recipe in the file, and a table of scores")
@@ -85,6 +92,8 @@ def train(options: argparse.Namespace) -> int:
     chosen = {"epochs": options.epochs, "learning_rate": options.learning_rate, "picture_px": options.picture_px, "seed": options.seed}
     recipe = replace(recipe, **{name: value for name, value in chosen.items() if value is not None})
     recipe = replace(recipe, remembers=options.remember)
+    if options.fit_force and not options.average:
+        raise ConfigError("--fit-force is for --average", hint="Name the checkpoint alone to fit one run: --average out/touch/last.ckpt")
     machine = Machine(options.threads, options.workers, options.max_minutes)
     if options.folds or options.trials:
         return _train_many(options, recipe, machine)
@@ -93,7 +102,7 @@ def train(options: argparse.Namespace) -> int:
     if options.average:
         from egotouch_sdk.training.average import average
 
-        path = average(options.average, options.data, options.out, recipe.seed)
+        path = average(options.average, options.data, options.out, recipe.seed, options.fit_force)
         sys.stdout.write(f"model written to {path}\n")
         return 0
     path = run(options.data, options.out, recipe, machine, resume=options.resume, start_from=options.start_from, trunk=options.trunk)

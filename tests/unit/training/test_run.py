@@ -1,6 +1,7 @@
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 torch = pytest.importorskip("torch")
@@ -11,7 +12,11 @@ from egotouch_sdk.errors import ConfigError, SourceError  # noqa: E402
 from egotouch_sdk.touch import TouchModel  # noqa: E402
 from egotouch_sdk.training.average import average, mean_state  # noqa: E402
 from egotouch_sdk.training.checkpoints import averaged_state  # noqa: E402
+from egotouch_sdk.training.dataset import fixed_views  # noqa: E402
+from egotouch_sdk.training.finish import predict  # noqa: E402
 from egotouch_sdk.training.folder import read_folder  # noqa: E402
+from egotouch_sdk.training.force_fit import fit_force  # noqa: E402
+from egotouch_sdk.training.network import TouchNetwork  # noqa: E402
 from egotouch_sdk.training.recipe import Recipe  # noqa: E402
 from egotouch_sdk.training.run import Machine, Split, train  # noqa: E402
 from egotouch_sdk.training.score import score_model  # noqa: E402
@@ -42,8 +47,9 @@ def test_train_export_and_resume(shard_folder: Path, tmp_path: Path, monkeypatch
     assert (fresh / "touch.onnx").is_file()
 
     runs = [tmp_path / "last.ckpt", fresh / "last.ckpt"]
-    mean = json.loads(average(runs, shard_folder, tmp_path / "mean", seed=1).with_suffix(".json").read_text())
-    assert mean["training"]["averaged_runs"] == 2 and mean["training"]["run_1"]["steps_done"] == 8
+    mean = json.loads(average([*runs, runs[0]], shard_folder, tmp_path / "mean", 1, shard_folder).with_suffix(".json").read_text())
+    assert mean["training"]["averaged_runs"] == 2 and mean["training"]["weights"] == [2, 1]
+    assert mean["training"]["run_1"]["steps_done"] == 8 and mean["training"]["force_fitted_on"]["patches"] == len(read_folder(shard_folder))
     first, second = (averaged_state(run)["outputs.weight"] for run in runs)
     torch.testing.assert_close(mean_state([averaged_state(run) for run in runs])["outputs.weight"], (first + second) / 2)
     with pytest.raises(ConfigError, match="different networks"):
@@ -76,3 +82,21 @@ def test_films_train_a_network_with_and_without_a_memory(film_folder: Path, tmp_
 def test_single_patches_give_nothing_to_remember(shard_folder: Path, tmp_path: Path) -> None:
     with pytest.raises(ConfigError, match="nothing to remember"):
         train(shard_folder, tmp_path, Recipe(epochs=1, batch=8, remembers=True), Machine(1, 0))
+
+
+def test_fitting_the_force_lessens_its_error_and_leaves_the_touch_alone(shard_folder: Path) -> None:
+    torch.manual_seed(0)
+    network, rendered = TouchNetwork(), read_folder(shard_folder)
+    _, seen = fixed_views(rendered, views=1, seed=3)
+    touching = seen.touch.numpy() > 0.5
+
+    def told() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        logit, force_n, sigma_n = predict(network, seen)
+        return logit, np.abs(force_n - seen.force_n.numpy())[touching], sigma_n[touching]
+
+    logit, before, _ = told()
+    assert fit_force(network, rendered, seed=1) is network
+    same, after, sigma_n = told()
+    np.testing.assert_array_equal(same, logit)
+    assert after.mean() < 0.8 * before.mean()
+    assert 0.3 < np.median(sigma_n) / after.mean() < 3
