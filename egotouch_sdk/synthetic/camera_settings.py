@@ -23,6 +23,8 @@ class LightMix(StrEnum):
 
 #: Share of each mix (our choice: hard light, that of sun and lamps, as often as soft light, since it is the harder to judge).
 MIX_SHARES = {LightMix.SOFT: 0.32, LightMix.MIXED: 0.27, LightMix.KEY: 0.31, LightMix.DIM: 0.10}
+#: The same for choosing thresholds, which must suit the light that is common: mostly indoor soft light (our choice).
+ORDINARY_MIX_SHARES = {LightMix.SOFT: 0.45, LightMix.MIXED: 0.30, LightMix.KEY: 0.12, LightMix.DIM: 0.13}
 #: Weight ranges of (key, window, ambient) for each mix.
 MIX_WEIGHTS: dict[LightMix, tuple[tuple[float, float], tuple[float, float], tuple[float, float]]] = {
     LightMix.SOFT: ((0.0, 0.05), (0.0, 0.4), (0.6, 1.0)),
@@ -95,9 +97,12 @@ class CameraSettings:
     crf: int | None = None
 
 
-def draw_settings(rng: np.random.Generator) -> CameraSettings:
-    """One random draw; it never looks at the label, so that neither blur nor light nor framing can stand for touch."""
-    mix = LightMix(str(rng.choice(list(MIX_SHARES), p=list(MIX_SHARES.values()))))
+def draw_settings(rng: np.random.Generator, mix_shares: dict[LightMix, float] = MIX_SHARES) -> CameraSettings:
+    """One random draw, `mix_shares` saying how often each light is met.
+
+    It never looks at the label, so that neither blur nor light nor framing can stand for touch.
+    """
+    mix = LightMix(str(rng.choice(list(mix_shares), p=list(mix_shares.values()))))
     return CameraSettings(
         occlusion_power=1.0 if rng.random() < 0.3 else float(rng.uniform(1.0, 3.2)),
         sample_blur_px=float(rng.uniform(0.7, 1.8)),

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from egotouch_sdk.patches import HOST_UNKNOWN
 from egotouch_sdk.synthetic.camera import photograph
-from egotouch_sdk.synthetic.camera_settings import CameraSettings, draw_settings, in_good_order
+from egotouch_sdk.synthetic.camera_settings import ORDINARY_MIX_SHARES, CameraSettings, draw_settings, in_good_order
 from egotouch_sdk.synthetic.lens import draw_lens
 from egotouch_sdk.training.shards import RenderedPatch
 
@@ -31,9 +31,8 @@ VIDEO_SHARE, VIDEO_CRF, ORDINARY_CRF = 0.35, (18, 33), (18, 27)
 
 
 def draw_camera(rng: np.random.Generator, ordinary: bool) -> CameraSettings:
-    """One camera of training's wide range, or an ordinary one in good order; both with a lens, and as stills or as video."""
-    drawn = draw_settings(rng)
-    drawn = in_good_order(drawn, rng) if ordinary else drawn
+    """One camera of training's wide range, or an ordinary one in common light; both with a lens, as stills or as video."""
+    drawn = in_good_order(draw_settings(rng, ORDINARY_MIX_SHARES), rng) if ordinary else draw_settings(rng)
     crf = int(rng.integers(*(ORDINARY_CRF if ordinary else VIDEO_CRF))) if rng.random() < VIDEO_SHARE else None
     return replace(drawn, lens=draw_lens(rng), crf=crf)
 

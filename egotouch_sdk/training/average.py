@@ -61,5 +61,5 @@ def export_calibrated(network: TouchNetwork, patches: Sequence[Rendered], out: P
         "calibrated_on": census(patches),
         "threshold_from": THRESHOLD_FROM,
     }
-    version = f"renders-{sum(int((run or {}).get('patches', 0)) for run in training.values() if isinstance(run, dict))}"
+    version = f"renders-{sum(int((run or {}).get('patches', 0)) for name, run in training.items() if name.startswith('run_'))}"
     return write_model(shipped, ModelFacts(version, calibration.down, calibration.up, facts, {"calibration_renders": measured}), out)
