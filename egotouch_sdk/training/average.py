@@ -29,10 +29,11 @@ def average(checkpoints: Sequence[Path], data: Path, out: Path, seed: int, force
     Returns the model file's path. Nobody in `data` may have trained one of the runs: this is not checked, since checkpoints do not
     name people. Raises `ConfigError` for a file that is no checkpoint of this network, `SourceError` for unusable data.
     """
-    mean = mean_state([averaged_state(path) for path in checkpoints])
+    weights = Counter(checkpoints)
+    states = {path: averaged_state(path) for path in weights}
+    mean = mean_state([states[path] for path in checkpoints])
     network = TouchNetwork(remembers=any(name.startswith("memory.") for name in mean))
     network.load_state_dict(mean)
-    weights = Counter(checkpoints)
     training: dict[str, Any] = {"averaged_runs": len(weights), "weights": list(weights.values())}
     training |= {f"run_{number}": earlier_stage(path) for number, path in enumerate(weights, 1)}
     if force_data is not None:

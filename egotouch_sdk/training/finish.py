@@ -16,7 +16,7 @@ from egotouch_sdk.training.dataset import Sample, fixed_views
 from egotouch_sdk.training.export import ModelFacts, write_model
 from egotouch_sdk.training.folder import Rendered
 from egotouch_sdk.training.module import TouchModule
-from egotouch_sdk.training.network import HIDDEN, TouchNetwork
+from egotouch_sdk.training.network import TouchNetwork
 from egotouch_sdk.training.report import coverage, held_out_report
 from egotouch_sdk.training.shards import PatchLabel
 
@@ -94,7 +94,6 @@ def predict(network: TouchNetwork, views: Sample) -> tuple[npt.NDArray[np.float3
     with torch.no_grad():
         for start in range(0, len(views.patch), SCORING_BATCH):
             patch, polar = (part[start : start + SCORING_BATCH] for part in (views.patch, views.polar))
-            hidden = network.embed(patch.flatten(0, 1), polar.flatten(0, 1)).reshape(*patch.shape[:2], HIDDEN)
-            parts.append(network.decide(network.film(hidden)))
+            parts.append(network.decide(network.film(network.embed_films(patch, polar))))
     logit, force_n, sigma_n = (torch.cat(column).numpy() for column in zip(*parts, strict=True))
     return logit, force_n, sigma_n

@@ -10,7 +10,8 @@ from torch import Tensor
 from egotouch_sdk.observation import FORCE_MAX_N
 from egotouch_sdk.training.dataset import PatchDataset, collate
 from egotouch_sdk.training.folder import Rendered
-from egotouch_sdk.training.network import HIDDEN, TouchNetwork
+from egotouch_sdk.training.module import surprise
+from egotouch_sdk.training.network import TouchNetwork
 
 #: Frames of each film that are looked at, of a network without a memory.
 _FRAMES = 4
@@ -33,7 +34,7 @@ def fit_force(network: TouchNetwork, rendered: Sequence[Rendered], seed: int) ->
     with torch.no_grad():
         force.weight[1:], force.bias[1:] = weight, bias
         error_n = (network.decide(states)[1] - forces_n).abs()
-    _descend(list(spread.parameters()), lambda: _surprise(network, states, error_n))
+    _descend(list(spread.parameters()), lambda: surprise(error_n, network.decide(states)[2]).mean())
     return network
 
 
@@ -43,9 +44,8 @@ def _touches(network: TouchNetwork, dataset: PatchDataset, seed: int) -> tuple[T
     for start in range(0, len(dataset), _CHUNK):
         batch = collate([dataset[index, seed * len(dataset) + index] for index in range(start, min(start + _CHUNK, len(dataset)))])
         with torch.no_grad():
-            hidden = network.embed(batch.patch.flatten(0, 1), batch.polar.flatten(0, 1)).reshape(*batch.touch.shape, HIDDEN)
             touching = batch.touch > 0.5
-            states.append(network.film(hidden)[touching])
+            states.append(network.film(network.embed_films(batch.patch, batch.polar))[touching])
             forces_n.append(batch.force_n[touching])
     return torch.cat(states), torch.cat(forces_n)
 
@@ -58,8 +58,3 @@ def _descend(values: list[Tensor], loss: Callable[[], Tensor]) -> None:
         optimiser.zero_grad()
         loss().backward()
         optimiser.step()
-
-
-def _surprise(network: TouchNetwork, states: Tensor, error_n: Tensor) -> Tensor:
-    sigma_n = network.decide(states)[2]
-    return (torch.log(sigma_n) + 0.5 * (error_n / sigma_n) ** 2).mean()

@@ -16,7 +16,7 @@ from torch.optim.swa_utils import AveragedModel, get_ema_multi_avg_fn
 from egotouch_sdk.evaluation.metrics import force_scores, touch_scores
 from egotouch_sdk.observation import FORCE_MAX_N
 from egotouch_sdk.training.dataset import Sample
-from egotouch_sdk.training.network import HIDDEN, TouchNetwork
+from egotouch_sdk.training.network import TouchNetwork
 from egotouch_sdk.training.recipe import Recipe
 from egotouch_sdk.training.shards import HOVER_MAX_MM
 
@@ -52,14 +52,15 @@ class TouchModule(lightning.LightningModule):
         return self.average.module if self.recipe.average_decay else self.network
 
     def shrink(self, patch: Tensor) -> Tensor:
-        """Pictures at the recipe's size."""
+        """Pictures (N, T, 3, 100, 100) at the recipe's size."""
         size = self.recipe.picture_px
-        return patch if size == patch.shape[-1] else interpolate(patch, (size, size), mode="bilinear", antialias=True)
+        if size == patch.shape[-1]:
+            return patch
+        return interpolate(patch.flatten(0, 1), (size, size), mode="bilinear", antialias=True).unflatten(0, patch.shape[:2])
 
     def embed(self, network: TouchNetwork, batch: Sample) -> Tensor:
         """Hidden values (N, T, 128) of a batch."""
-        count, frames = batch.touch.shape
-        return network.embed(self.shrink(batch.patch.flatten(0, 1)), batch.polar.flatten(0, 1)).reshape(count, frames, HIDDEN)
+        return network.embed_films(self.shrink(batch.patch), batch.polar)
 
     def training_step(self, batch: Sample, _: int) -> Tensor:
         hidden = self.embed(self.network, batch)
@@ -81,8 +82,8 @@ class TouchModule(lightning.LightningModule):
         if recipe.hover_weight:
             total = total + recipe.hover_weight * mse_loss(self.hover_head(state)[..., 0], hover_target(batch.hover_mm))
         if recipe.sigma_weight:
-            surprise = torch.log(sigma_n) + 0.5 * ((force_n.detach() - batch.force_n) / sigma_n) ** 2
-            total = total + recipe.sigma_weight * (batch.touch * surprise).sum() / touches
+            surprised = surprise(force_n.detach() - batch.force_n, sigma_n)
+            total = total + recipe.sigma_weight * (batch.touch * surprised).sum() / touches
         if log:
             self.log("loss", touch_loss, prog_bar=True, on_step=False, on_epoch=True, batch_size=len(logit))
             self.log("force_loss", force_loss, prog_bar=True, on_step=False, on_epoch=True, batch_size=len(logit))
@@ -139,6 +140,11 @@ def rate_factor(progress: float, warmup_share: float) -> float:
     if progress < warmup_share:
         return 0.02 + 0.98 * progress / warmup_share
     return 0.005 + 0.995 * 0.5 * (1 + cos(pi * (progress - warmup_share) / (1 - warmup_share)))
+
+
+def surprise(error_n: Tensor, sigma_n: Tensor) -> Tensor:
+    """Negative log likelihood of errors under their standard errors, both in newtons, up to a constant."""
+    return torch.log(sigma_n) + 0.5 * (error_n / sigma_n) ** 2
 
 
 def hover_target(hover_mm: Tensor) -> Tensor:

@@ -82,6 +82,10 @@ class TouchNetwork(nn.Module):
         joined = torch.cat([self.dropout(self.features(pooled)), place], 1)
         return torch.relu(self.hidden(joined))
 
+    def embed_films(self, patch: Tensor, polar: Tensor) -> Tensor:
+        """Hidden values (N, T, 128) of films: patches (N, T, 3, H, W) and (R, theta) (N, T, 2)."""
+        return self.embed(patch.flatten(0, 1), polar.flatten(0, 1)).reshape(*patch.shape[:2], HIDDEN)
+
     def stills(self, hidden: Tensor) -> Tensor:
         """States (N, T, S) of frames that are each judged alone, from their hidden values (N, T, 128)."""
         if self.memory is None:
